@@ -12,7 +12,7 @@ FUZZ_SECONDS ?= 6
 # Ninja shows how many of how many steps are done, and for how long it has been at it.
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
-.PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak recordings \
+.PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak hostile hostile_bus recordings histories \
   nightly coverage package clean
 
 run: product
@@ -102,9 +102,24 @@ MINUTES ?= 10
 soak: build
 	TRUNNION_SOAK_SEED=$(SEED) TRUNNION_SOAK_SECONDS=$$(( $(MINUTES) * 60 )) $(BUILD)/bin/fault_soak_test
 
+# A foreign process writes every topic of a running cluster for a minute. SEED=
+hostile_bus: build
+	TRUNNION_HOSTILE_SEED=$(SEED) TRUNNION_HOSTILE_SECONDS=60 $(BUILD)/bin/hostile_bus_test
+
+# Attacks over HTTP, WebSocket, MTConnect and Modbus on a cluster of its own, SECONDS each, in real time and over 127.0.0.1 only.
+# ATTACK=name: that one.
+SECONDS ?= 5
+hostile: product
+	integration_tests/hostile.py --trunnion $(TRUNNION) --seconds $(SECONDS) $(addprefix --attack ,$(ATTACK))
+
 # Recordings of every machine in every state of use, on other vendors and in real time, verified. Half an hour.
 recordings: build
 	TRUNNION_ALL_RECORDINGS=1 $(BUILD)/bin/recordings_test
+
+# Recordings from random moments of random histories, verified; four a minute. SEED=, HISTORIES=
+HISTORIES ?= 200
+histories: build
+	TRUNNION_SEED=$(SEED) TRUNNION_HISTORIES=$(HISTORIES) $(BUILD)/bin/history_test
 
 # Continues where an interrupted run of the same commit was.
 nightly:

@@ -49,7 +49,7 @@ set(test_compile_options $<$<CONFIG:RelWithDebInfo>:-O0>)
 
 # What the presets sanitize and fuzz build: neither needs the executables, the benchmarks or the page.
 add_custom_target(unit_tests)
-# What `make run` builds: the programs and the page, no test and no benchmark.
+# What `make run` builds: the programs that are installed (deploy/packages) and the page, no test and no benchmark.
 add_custom_target(product)
 add_custom_target(fuzzers)
 # What the preset threads builds: the tests of all that has more than one thread.
@@ -169,6 +169,5 @@ function(trunnion_service name)
   add_executable(trunnion-${name} main.cpp service.cpp)
   target_link_libraries(trunnion-${name} PRIVATE trunnion_options trunnion_service ${ARG_LINK})
   trunnion_use_precompiled(trunnion-${name} precompiled_product)
-  add_dependencies(product trunnion-${name})
   trunnion_layer(trunnion-${name} trunnion_service ${ARG_LINK})
 endfunction()

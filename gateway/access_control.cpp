@@ -40,7 +40,7 @@ const std::string& hash_of_nobody() {
 
 }  // namespace
 
-AccessControl::AccessControl(AccessSettings settings, FileWorker& worker)
+AccessControl::AccessControl(AccessSettings settings, Worker& worker)
     : settings_(std::move(settings)), worker_(worker), sessions_(settings_.session_idle) {
   if (!on()) return;
   hash_of_nobody();  // made now, so that the first unknown name takes no longer than others

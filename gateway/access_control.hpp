@@ -12,8 +12,8 @@
 #include "access/sessions.hpp"
 #include "access/user_file.hpp"
 #include "answer.hpp"
-#include "file_worker.hpp"
 #include "src/router.hpp"
+#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 
@@ -32,7 +32,7 @@ class AccessControl {
 
   /// Makes the first administrator when there are no users yet. Throws std::runtime_error when users.json
   /// cannot be used.
-  AccessControl(AccessSettings settings, FileWorker& worker);
+  AccessControl(AccessSettings settings, Worker& worker);
 
   bool on() const { return settings_.on; }
   /// Whether the gateway is reached by TLS.
@@ -56,7 +56,7 @@ class AccessControl {
   void refresh(double now);
 
   const AccessSettings settings_;
-  FileWorker& worker_;
+  Worker& worker_;
   std::mutex mutex_;
   access::Users users_;
   access::Sessions sessions_;

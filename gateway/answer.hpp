@@ -43,6 +43,8 @@ using Respond = std::function<void(Answer)>;
 Answer json_answer(unsigned status, const bus::Json& body);
 /// {"error": text, "field": field}; the field only when there is one.
 Answer error_answer(unsigned status, const std::string& text, const std::string& field = {});
+/// 503: as many requests wait as may.
+Answer busy_answer();
 /// As "application/problem+json" (RFC 9457): {"type", "title", "status", "detail", "field"}.
 Answer problem_answer(unsigned status, const std::string& detail, const std::string& field = {});
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api.hpp"
 
+#include <algorithm>
 #include <fstream>
 
+#include "commands/command_table.hpp"
+#include "machine/alarm_constants.hpp"
 #include "src/paging.hpp"
 #include "src/precondition.hpp"
 #include "src/requests.hpp"
@@ -41,6 +44,19 @@ Answer answer_to(const Request& asked, const std::optional<Reply>& reply, const 
   return answer;
 }
 
+/// To a stop that the channel has not answered yet.
+Answer repeated_answer(const idl::channel::ChannelRequest& asked, std::string_view route) {
+  std::string name(route);
+  std::ranges::replace(name, '-', ' ');
+  auto answer = json_answer(
+      202, {{"accepted", true},
+            {"reason", name + " is repeated until channel " + std::to_string(asked.channel) +
+                           " answers, for " + std::to_string(static_cast<int>(stop_repeated_for)) +
+                           " s at most: press emergency stop if the axes still move"}});
+  answer.asked = {asked.client, asked.number, 1};
+  return answer;
+}
+
 Answer published(const Json& answer, const char* who) {
   return answer.is_null() ? error_answer(504, std::string("the ") + who + " service has not published yet")
                           : json_answer(200, answer);
@@ -68,51 +84,18 @@ Answer tagged(Answer answer, const std::string& tag) {
 
 }  // namespace
 
-Answer json_answer(unsigned status, const Json& body) {
-  // Texts of the bus may be cut within a character; such a byte must not take the answer down.
-  return {status, bus::text_of(body)};
-}
-
-Answer error_answer(unsigned status, const std::string& text, const std::string& field) {
-  Json body = {{"error", text}};
-  if (!field.empty()) body["field"] = field;
-  return json_answer(status, body);
-}
-
-Answer problem_answer(unsigned status, const std::string& detail, const std::string& field) {
-  static const std::map<unsigned, const char*> titles = {{400, "Bad Request"},
-                                                         {404, "Not Found"},
-                                                         {409, "Conflict"},
-                                                         {503, "Service Unavailable"},
-                                                         {504, "Gateway Timeout"}};
-  const auto title = titles.find(status);
-  Json body = {{"type", "about:blank"},
-               {"title", title == titles.end() ? "Error" : title->second},
-               {"status", status},
-               {"detail", detail}};
-  if (!field.empty()) body["field"] = field;
-  auto answer = json_answer(status, body);
-  answer.type = "application/problem+json";
-  return answer;
-}
-
-Answer list_answer(Json body, const char* member, const std::string& query) {
-  const auto total = cut_to_page(body[member], query);
-  auto answer = json_answer(200, body);
-  answer.headers.emplace_back("X-Total-Count", std::to_string(total));
-  return answer;
-}
-
-Answer refused_answer(std::uint32_t alarm, const std::string& reason) {
-  return json_answer(409, {{"accepted", false}, {"alarm", alarm}, {"reason", reason}});
-}
-
 Answer unrouted(RouteResult result) {
   return result == RouteResult::no_method ? error_answer(405, "this path does not know this method")
                                           : error_answer(404, "no such path");
 }
 
 void Api::handle(const Match& match, const RequestText& request, const Respond& respond) {
+  if (is_short(match.operation)) return carry_out(match, request, respond);
+  if (!requests_.offer([this, match, request, respond] { carry_out(match, request, respond); }))
+    respond(busy_answer());
+}
+
+void Api::carry_out(const Match& match, const RequestText& request, const Respond& respond) {
   const auto& [query, body] = std::tie(request.query, request.body);
   try {
     switch (match.operation) {
@@ -271,15 +254,20 @@ void Api::send_channel(const Match& match, const Json& body, const std::optional
   auto request = channel_request(match.command, body, known->second);
   request.role = role_of(user);
   request.who = user ? user->name : "hmi";
-  mailbox_.post([request, respond](Links& links, double now) {
-    links.channel.submit(
-        request,
-        [respond](const auto& asked, const auto& reply) {
-          respond(answer_to(asked, reply, "channel", [&] {
-            return Json{{"accepted", true}, {"cycle", reply->cycle}};
-          }));
-        },
-        now);
+  const auto motion = commands::motion_of(request.command);
+  mailbox_.post([request, motion, route = match.command, respond](Links& links, double now) {
+    const auto answer = [motion, route, respond](const auto& asked, const auto& reply) {
+      if (!reply && motion == commands::Motion::stops) return respond(repeated_answer(asked, route));
+      respond(answer_to(asked, reply, "channel", [&] {
+        return Json{{"accepted", true}, {"cycle", reply->cycle}};
+      }));
+    };
+    if (motion == commands::Motion::stops) {
+      links.repeat_only(request);
+      return links.channel.submit_stop(request, answer, now);
+    }
+    if (motion == commands::Motion::starts) links.withdraw_stops(request);
+    links.channel.submit(request, answer, now);
   });
 }
 
@@ -418,7 +406,12 @@ void Api::plan(const Match& match, const std::string& query, const Respond& resp
   planner_.submit({match.parts.at(0), static_cast<std::uint16_t>(*number), snapshot, respond});
 }
 
-Answer Api::page(std::string_view path, bool gzip) const {
+void Api::page(const std::string& path, bool gzip, const Respond& respond) {
+  if (!requests_.offer([this, path, gzip, respond] { respond(file_of_page(path, gzip)); }))
+    respond(busy_answer());
+}
+
+Answer Api::file_of_page(std::string_view path, bool gzip) const {
   const auto file = find_static(web_, path);
   if (!file) return error_answer(404, "no such file");
   auto name = file->path;
@@ -434,7 +427,10 @@ Answer Api::page(std::string_view path, bool gzip) const {
 }
 
 Answer program_refusal(const ProgramReply& reply) {
-  return reply ? refused_answer(reply->alarm, reply->reason) : silent("program");
+  if (!reply) return silent("program");
+  auto answer = refused_answer(reply->alarm, reply->reason);
+  if (reply->alarm == alarm::storage_failed.number) answer.status = 507;
+  return answer;
 }
 
 idl::program::ProgramRequest ProgramUpload::request(idl::program::Operation operation) {

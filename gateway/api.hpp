@@ -43,14 +43,18 @@ class Api {
         recordings_(std::move(recordings)),
         access_(std::move(access), recordings_.worker()),
         operating_(one_operates, access_),
-        plc_(mailbox),
+        plc_(mailbox, requests_),
         machine_directory_(measurement.machine.directory),
         measurement_(mailbox, recordings_.worker(), std::move(measurement)) {}
+  ~Api() { stop(); }
+  Api(const Api&) = delete;
+  Api& operator=(const Api&) = delete;
 
-  /// Everything but the stream and the reading and writing of programs.
+  /// Everything but the stream and the reading and writing of programs. On the thread of the connections:
+  /// what is_short() is begun at once, all else on the thread of the requests.
   void handle(const Match& match, const RequestText& request, const Respond& respond);
-  /// A file of the page; as gzip when the client permits it and the build has made one.
-  Answer page(std::string_view path, bool gzip) const;
+  /// A file of the page, later; as gzip when the client permits it and the build has made one.
+  void page(const std::string& path, bool gzip, const Respond& respond);
   Mailbox& mailbox() { return mailbox_; }
   /// Remembers for a second what an upload has stored: the list of programs comes a moment later. On the
   /// thread of the connections only, as handle().
@@ -60,15 +64,20 @@ class Api {
   AccessControl& access() { return access_; }
   OperatingControl& operating() { return operating_; }
   /// Where the source of an answer is read.
-  FileWorker& files() { return recordings_.worker(); }
-  /// Ends the threads of checks, plans and files; to be called while the mailbox exists.
+  Worker& files() { return recordings_.worker(); }
+  /// Where bodies are read, and answers made and compressed.
+  Worker& requests() { return requests_; }
+  /// Ends the threads of requests, checks, plans and files; to be called while the mailbox exists.
   void stop() {
+    requests_.stop();
     checker_.stop();
     planner_.stop();
     recordings_.stop();
   }
 
  private:
+  void carry_out(const Match& match, const RequestText& request, const Respond& respond);
+  Answer file_of_page(std::string_view path, bool gzip) const;
   Answer read(const Match& match, const std::string& query) const;
   void send_channel(const Match& match, const bus::Json& body, const std::optional<access::Identity>& user,
                     const Respond& respond);
@@ -90,6 +99,7 @@ class Api {
   Mailbox& mailbox_;
   std::string contract_;
   std::filesystem::path web_;
+  Worker requests_{"gateway-work"};
   ProgramChecker checker_;
   ProgramPlanner planner_;
   Recordings recordings_;
@@ -102,8 +112,8 @@ class Api {
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point since;
   };
-  std::map<std::string, Stored> stored_;
-  /// The newest change of parameters, and the set that was known then.
+  std::map<std::string, Stored> stored_;  ///< of the thread of the connections
+  /// The newest change of parameters, and the set that was known then. Of the thread of the requests.
   struct Sent {
     std::shared_ptr<const idl::parameters::ParameterSet> from;
     std::chrono::steady_clock::time_point since;
@@ -114,7 +124,7 @@ class Api {
 using ProgramReply = std::optional<idl::program::ProgramReply>;
 using ProgramDone = std::function<void(const ProgramReply&)>;
 
-/// The answer when a request to the program service was not accepted.
+/// The answer when a request to the program service was not accepted: 507 when there is no room.
 Answer program_refusal(const ProgramReply& reply);
 
 /// One upload: begin, write as often as needed, commit; abort when it cannot be finished. One call at a time.

@@ -10,7 +10,7 @@
 
 namespace trunnion::gateway {
 
-void answer_bodies(const Mailbox& mailbox, FileWorker& files, const std::string& directory,
+void answer_bodies(const Mailbox& mailbox, Worker& files, const std::string& directory,
                    const std::string& channel, const Respond& respond) {
   const auto number = path_number(channel, 65535);
   const auto snapshot = mailbox.newest();
@@ -18,21 +18,23 @@ void answer_bodies(const Mailbox& mailbox, FileWorker& files, const std::string&
     return respond(problem_answer(504, "the parameters service has not published yet"));
   if (!number || !snapshot->channels.contains(static_cast<std::uint16_t>(*number)))
     return respond(problem_answer(404, "no channel " + channel));
-  files.post([snapshot, directory, number = static_cast<std::uint16_t>(*number), respond] {
-    try {
-      const auto file = directory + "/bodies.yaml";
-      const bool described = std::filesystem::exists(file);
-      auto bodies = collision::parse_bodies(described ? machine::read_text(file) : "", file,
-                                            machine::chain_parameters(*snapshot->values, number));
-      if (!described) bodies.set = collision::derived_bodies(bodies.links);
-      auto document = bodies_document(bodies);
-      document["channel"] = number;
-      document["derived"] = !described;
-      respond(json_answer(200, document));
-    } catch (const std::exception& error) {
-      respond(problem_answer(409, error.what()));
-    }
-  });
+  const bool taken =
+      files.offer([snapshot, directory, number = static_cast<std::uint16_t>(*number), respond] {
+        try {
+          const auto file = directory + "/bodies.yaml";
+          const bool described = std::filesystem::exists(file);
+          auto bodies = collision::parse_bodies(described ? machine::read_text(file) : "", file,
+                                                machine::chain_parameters(*snapshot->values, number));
+          if (!described) bodies.set = collision::derived_bodies(bodies.links);
+          auto document = bodies_document(bodies);
+          document["channel"] = number;
+          document["derived"] = !described;
+          respond(json_answer(200, document));
+        } catch (const std::exception& error) {
+          respond(problem_answer(409, error.what()));
+        }
+      });
+  if (!taken) respond(busy_answer());
 }
 
 }  // namespace trunnion::gateway

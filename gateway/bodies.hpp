@@ -5,14 +5,14 @@
 #include <string>
 
 #include "answer.hpp"
-#include "file_worker.hpp"
 #include "mailbox.hpp"
+#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 
 /// Answers GET /api/bodies/{channel} later, from `files`: bodies.yaml in `directory` is read anew
 /// each time. 404 without that channel, 409 with the place of an error in the file.
-void answer_bodies(const Mailbox& mailbox, FileWorker& files, const std::string& directory,
+void answer_bodies(const Mailbox& mailbox, Worker& files, const std::string& directory,
                    const std::string& channel, const Respond& respond);
 
 }  // namespace trunnion::gateway

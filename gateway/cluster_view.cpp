@@ -31,7 +31,7 @@ ClusterView::ClusterView(bus::Bus& bus)
       alarms_(bus.reader(topics::alarm)),
       cluster_(bus.reader(topics::cluster)),
       channel_states_(bus.reader(topics::channel_state)),
-      feedback_(bus.reader(topics::feedback_frame)),
+      feedback_(bus, topics::feedback_frame),
       outputs_(bus.reader(topics::plc_outputs)),
       image_(bus.reader(topics::plc_image)),
       variables_(bus.reader(topics::variables)),

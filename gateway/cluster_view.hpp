@@ -8,6 +8,7 @@
 #include "src/alarm_history.hpp"
 #include "src/snapshot.hpp"
 #include "src/state_document.hpp"
+#include "stream/frame_reader.hpp"
 
 namespace trunnion::gateway {
 
@@ -22,6 +23,8 @@ class ClusterView {
                                            bool with_replies = false);
   AlarmHistory& alarm_history() { return history_; }
   std::uint64_t frames() const { return frames_; }
+  /// As of StateDocument.
+  bool executed() const { return document_.executed(); }
   /// Of the emergency stop, that the drive holds; number 0 = none.
   const idl::plc::Press& press() const { return press_; }
   /// Of the parameters, 0 = none yet.
@@ -33,7 +36,7 @@ class ClusterView {
   bus::Reader<idl::service::Alarm> alarms_;
   bus::Reader<idl::service::Cluster> cluster_;
   bus::Reader<idl::channel::ChannelState> channel_states_;
-  bus::Reader<idl::stream::FeedbackFrame> feedback_;
+  stream::FrameReader<idl::stream::FeedbackFrame> feedback_;
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::plc::Image> image_;
   bus::Reader<idl::channel::Variables> variables_;

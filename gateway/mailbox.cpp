@@ -38,6 +38,18 @@ std::optional<double> Links::period() const {
   return shortest;
 }
 
+void Links::withdraw_stops(const idl::channel::ChannelRequest& start) {
+  idl::channel::ChannelReply reply{};
+  reply.reason = "not repeated: an order that starts motion followed before the channel answered";
+  channel.withdraw([&](const auto& other) { return other.channel == start.channel; }, reply);
+}
+
+void Links::repeat_only(const idl::channel::ChannelRequest& stop) {
+  channel.withdraw([&](const auto& other) {
+    return other.channel == stop.channel && other.command == stop.command && other.axis == stop.axis;
+  });
+}
+
 void Mailbox::post(Job job) {
   {
     const std::lock_guard lock(mutex_);

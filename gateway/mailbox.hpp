@@ -55,6 +55,11 @@ struct Links {
   /// Seconds after which pump() is to be called at the latest; nothing when no request is under way.
   std::optional<double> period() const;
 
+  /// Before `start` is sent: stops of its channel are not repeated any more.
+  void withdraw_stops(const idl::channel::ChannelRequest& start);
+  /// Before `stop` is sent: the same one of before need not be repeated beside it.
+  void repeat_only(const idl::channel::ChannelRequest& stop);
+
   RequestLanes<idl::channel::ChannelRequest, idl::channel::ChannelReply> channel;
   RequestLanes<idl::plc::PanelRequest, idl::plc::PanelReply> panel;
   RequestLanes<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> parameters;

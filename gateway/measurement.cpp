@@ -128,7 +128,7 @@ void KinematicMeasurement::answer_inputs(const std::string& query, const Respond
     return respond(problem_answer(504, "the parameters service has not published yet"));
   if (!channel || !snapshot->channels.contains(static_cast<std::uint16_t>(*channel)))
     return respond(problem_answer(404, "no channel " + text));
-  files_.post([this, snapshot, number = static_cast<std::uint16_t>(*channel), respond] {
+  const bool taken = files_.offer([this, snapshot, number = static_cast<std::uint16_t>(*channel), respond] {
     try {
       const auto machine = calibration::load_measured_machine(settings_.machine, *snapshot->values, number);
       const auto inputs = calibration::default_inputs(machine);
@@ -141,11 +141,12 @@ void KinematicMeasurement::answer_inputs(const std::string& query, const Respond
       respond(problem_answer(409, error.what()));
     }
   });
+  if (!taken) respond(busy_answer());
 }
 
 void KinematicMeasurement::with_last(const Respond& respond,
                                      std::function<void(const calibration::LastCalibration&)> then) {
-  files_.post([this, respond, then = std::move(then)] {
+  const bool taken = files_.offer([this, respond, then = std::move(then)] {
     if (!std::filesystem::exists(settings_.journal))
       return respond(problem_answer(
           409,
@@ -159,6 +160,7 @@ void KinematicMeasurement::with_last(const Respond& respond,
     }
     then(last);
   });
+  if (!taken) respond(busy_answer());
 }
 
 void KinematicMeasurement::undo(const RequestText& text, const Respond& respond) {

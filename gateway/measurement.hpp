@@ -7,10 +7,10 @@
 
 #include "answer.hpp"
 #include "calibration/journal.hpp"
-#include "file_worker.hpp"
 #include "machine/machine.hpp"
 #include "mailbox.hpp"
 #include "src/router.hpp"
+#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 
@@ -21,7 +21,7 @@ struct MeasurementSettings {
 
 class KinematicMeasurement {
  public:
-  KinematicMeasurement(Mailbox& mailbox, FileWorker& files, MeasurementSettings settings)
+  KinematicMeasurement(Mailbox& mailbox, Worker& files, MeasurementSettings settings)
       : mailbox_(mailbox), files_(files), settings_(std::move(settings)) {}
 
   /// Every operation of the measurement; answers later. Refusals are problem details (RFC 9457).
@@ -37,7 +37,7 @@ class KinematicMeasurement {
   void manual(bool write, const RequestText& request, const Respond& respond);
 
   Mailbox& mailbox_;
-  FileWorker& files_;
+  Worker& files_;
   MeasurementSettings settings_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "operating_control.hpp"
 
+#include <utility>
+
 #include "access/secrets.hpp"
 #include "service/node.hpp"
 #include "src/requests.hpp"
@@ -24,6 +26,13 @@ std::string refused(const std::string& holder) {
 
 }  // namespace
 
+bool OrderUnderWay::end(bool accepted) {
+  const auto right = std::exchange(right_, nullptr);
+  if (!right) return false;
+  const std::lock_guard lock(right->mutex);
+  return right->right.answered(station_.key, accepted, service::monotonic_seconds());
+}
+
 Station OperatingControl::station_of(std::string_view cookies, const std::string& peer,
                                      const std::optional<access::Identity>& user) const {
   if (user) {
@@ -39,15 +48,20 @@ Station OperatingControl::station_of(std::string_view cookies, const std::string
   return station;
 }
 
-std::optional<Answer> OperatingControl::refusal(const Station& station, const Match& match) {
+std::optional<Answer> OperatingControl::refusal(const Station& station, const Match& match,
+                                                std::shared_ptr<OrderUnderWay>& order) {
   if (!on_ || !needs_operating_right(match)) return {};
-  const std::lock_guard lock(mutex_);
-  const double now = service::monotonic_seconds();
-  const bool free = !right_.holder(now);
-  const auto holder = right_.order(station, now);
-  if (!holder.empty()) return refused_answer(0, refused(holder));
-  if (free) note(station, "operates the machine");
+  {
+    const std::lock_guard lock(mutex_);
+    const auto holder = right_.order(station, service::monotonic_seconds());
+    if (!holder.empty()) return refused_answer(0, refused(holder));
+  }
+  order = std::make_shared<OrderUnderWay>(shared_, station);
   return {};
+}
+
+void OperatingControl::answered(const std::shared_ptr<OrderUnderWay>& order, unsigned status) {
+  if (order && order->end(status >= 200 && status < 300)) note(order->station(), "operates the machine");
 }
 
 void OperatingControl::present(const Station& station) {
@@ -113,8 +127,10 @@ std::string OperatingControl::take_for_command(const Station& station, bool take
   const double now = service::monotonic_seconds();
   if (take_over) right_.take(station, now);
   const auto holder = right_.order(station, now);
-  if (holder.empty()) note(station, "operates the machine");
-  return holder;
+  if (!holder.empty()) return holder;
+  right_.answered(station.key, true, now);
+  note(station, "operates the machine");
+  return {};
 }
 
 void OperatingControl::release(const Station& station) {

@@ -2,6 +2,7 @@
 // One station operates, as far as orders come through the gateway or from the command line.
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -12,6 +13,28 @@
 #include "src/router.hpp"
 
 namespace trunnion::gateway {
+
+struct SharedRight {
+  std::mutex mutex;
+  access::OperatingRight right;
+};
+
+/// An order under way, with the right that it has reserved.
+class OrderUnderWay {
+ public:
+  OrderUnderWay(std::shared_ptr<SharedRight> right, access::Station station)
+      : right_(std::move(right)), station_(std::move(station)) {}
+  OrderUnderWay(const OrderUnderWay&) = delete;
+  OrderUnderWay& operator=(const OrderUnderWay&) = delete;
+  ~OrderUnderWay() { end(false); }
+  /// Once. True when the station has got the right by it.
+  bool end(bool accepted);
+  const access::Station& station() const { return station_; }
+
+ private:
+  std::shared_ptr<SharedRight> right_;  ///< null when it has ended
+  access::Station station_;
+};
 
 class OperatingControl {
  public:
@@ -24,8 +47,12 @@ class OperatingControl {
   /// Who sends a request: the session or token of a login, else the cookie of the browser, else the address.
   access::Station station_of(std::string_view cookies, const std::string& peer,
                              const std::optional<access::Identity>& user) const;
-  /// 409 when another station operates and `match` is an order. An order takes the right when it is free.
-  std::optional<Answer> refusal(const access::Station& station, const Match& match);
+  /// 409 when another station operates and `match` is an order. When the right is free, `order` reserves it
+  /// until it is answered or destroyed.
+  std::optional<Answer> refusal(const access::Station& station, const Match& match,
+                                std::shared_ptr<OrderUnderWay>& order);
+  /// Ends `order`, if there is one: one that is accepted takes the right.
+  void answered(const std::shared_ptr<OrderUnderWay>& order, unsigned status);
   /// The station's page is open.
   void present(const access::Station& station);
   /// GET, POST {"action": "take", "hand_over", "refuse" or "release"}.
@@ -43,8 +70,10 @@ class OperatingControl {
 
   const bool on_;
   AccessControl& access_;
-  std::mutex mutex_;
-  access::OperatingRight right_;
+  /// Shared with orders under way, which may live longer.
+  const std::shared_ptr<SharedRight> shared_ = std::make_shared<SharedRight>();
+  std::mutex& mutex_ = shared_->mutex;
+  access::OperatingRight& right_ = shared_->right;
 };
 
 }  // namespace trunnion::gateway

@@ -40,7 +40,8 @@ Answer accepted() { return json_answer(200, {{"accepted", true}}); }
 
 }  // namespace
 
-PlcOnline::PlcOnline(Mailbox& mailbox) : mailbox_(mailbox), tracer_(service::make_client_id()) {}
+PlcOnline::PlcOnline(Mailbox& mailbox, Worker& requests)
+    : mailbox_(mailbox), requests_(requests), tracer_(service::make_client_id()) {}
 
 void PlcOnline::handle(const Match& match, const RequestText& request, const Respond& respond) {
   try {
@@ -106,18 +107,20 @@ void PlcOnline::handle(const Match& match, const RequestText& request, const Res
 }
 
 void PlcOnline::send(Request request, const Respond& respond, Done done) {
-  mailbox_.post([request = std::move(request), respond, done = std::move(done)](Links& links, double now) {
-    links.online.submit(
-        request,
-        [respond, done](const Request& asked, const std::optional<Reply>& reply) {
-          if (reply && reply->accepted) return done(asked, *reply);
-          auto answer = reply ? problem_answer(409, reply->reason)
-                              : problem_answer(504, "no answer from the plc service");
-          answer.asked = {asked.client, asked.number, 1};
-          respond(std::move(answer));
-        },
-        now);
-  });
+  mailbox_.post(
+      [this, request = std::move(request), respond, done = std::move(done)](Links& links, double now) {
+        links.online.submit(
+            request,
+            [this, respond, done](const Request& asked, const std::optional<Reply>& reply) {
+              if (reply && reply->accepted)
+                return requests_.post([done, asked, reply = *reply] { done(asked, reply); });
+              auto answer = reply ? problem_answer(409, reply->reason)
+                                  : problem_answer(504, "no answer from the plc service");
+              answer.asked = {asked.client, asked.number, 1};
+              respond(std::move(answer));
+            },
+            now);
+      });
 }
 
 void PlcOnline::order(Request request, const Respond& respond) {

@@ -13,12 +13,14 @@
 #include "plc_online/shown_variables.hpp"
 #include "src/plc_requests.hpp"
 #include "src/router.hpp"
+#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 
 class PlcOnline {
  public:
-  explicit PlcOnline(Mailbox& mailbox);
+  /// Answers are made on the thread of `requests`.
+  PlcOnline(Mailbox& mailbox, Worker& requests);
   /// Answers later. Refusals are problem details (RFC 9457). Every operation of the programs but the watch.
   void handle(const Match& match, const RequestText& request, const Respond& respond);
 
@@ -30,7 +32,7 @@ class PlcOnline {
   template <class Found>
   using Then = std::function<void(std::shared_ptr<const Found>)>;
 
-  /// `done` is called with an accepted reply, on the thread of the bus; anything else is answered.
+  /// `done` is called with an accepted reply, on the thread of the requests; anything else is answered.
   void send(Request request, const Respond& respond, Done done);
   /// Accepted or refused.
   void order(Request request, const Respond& respond);
@@ -60,6 +62,7 @@ class PlcOnline {
   Request of_trace(Request request);
 
   Mailbox& mailbox_;
+  Worker& requests_;
   const std::uint64_t tracer_;
   std::mutex mutex_;
   std::shared_ptr<const Variables> variables_;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_checker.hpp"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <chrono>
 
 #include "src/program_check.hpp"
@@ -16,41 +13,14 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-void ProgramChecker::submit(Job job) {
-  std::unique_lock lock(mutex_);
-  if (jobs_.size() >= most_waiting) {
-    lock.unlock();
-    return job.respond(error_answer(503, "too many programs are being checked; try again"));
-  }
-  jobs_.push_back(std::move(job));
-  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
-  wake_.notify_one();
+void ProgramChecker::submit(const Job& job) {
+  if (!worker_.offer([this, job] { job.respond(run(job)); }))
+    job.respond(error_answer(503, "too many programs are being checked; try again"));
 }
 
 void ProgramChecker::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-    jobs_.clear();
-  }
-  wake_.notify_one();
-  if (thread_.joinable()) thread_.join();
-}
-
-void ProgramChecker::work() {
-  // Orders and the stream come first; without the permission it is as any other thread.
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
-  for (;;) {
-    Job job;
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
-      if (stopping_) return;
-      job = std::move(jobs_.front());
-      jobs_.pop_front();
-    }
-    job.respond(run(job));
-  }
+  stopping_ = true;
+  worker_.stop();
 }
 
 Answer ProgramChecker::run(const Job& job) {

@@ -3,13 +3,10 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
-#include <deque>
-#include <mutex>
-#include <thread>
 
 #include "answer.hpp"
 #include "mailbox.hpp"
+#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 
@@ -30,20 +27,16 @@ class ProgramChecker {
   explicit ProgramChecker(Mailbox& mailbox) : mailbox_(mailbox) {}
   ~ProgramChecker() { stop(); }
   /// Answers later; at once with 503 when too many wait.
-  void submit(Job job);
+  void submit(const Job& job);
   /// Drops what waits and ends what is under way.
   void stop();
 
  private:
-  void work();
   Answer run(const Job& job);
 
   Mailbox& mailbox_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::deque<Job> jobs_;
   std::atomic<bool> stopping_ = false;
-  std::thread thread_;  ///< begun with the first check
+  Worker worker_{"gateway-checks", most_waiting};
 };
 
 }  // namespace trunnion::gateway

@@ -12,15 +12,14 @@ namespace trunnion::gateway {
 
 using Clock = std::chrono::steady_clock;
 
-void ProgramPlanner::submit(Job job) {
-  if (thread_.waiting() >= most_waiting)
-    return job.respond(problem_answer(503, "too many programs are being planned; try again"));
-  thread_.post([this, job = std::move(job)] { job.respond(run(job)); });
+void ProgramPlanner::submit(const Job& job) {
+  if (!worker_.offer([this, job] { job.respond(run(job)); }))
+    job.respond(problem_answer(503, "too many programs are being planned; try again"));
 }
 
 void ProgramPlanner::stop() {
   stopping_ = true;
-  thread_.stop();
+  worker_.stop();
 }
 
 Answer ProgramPlanner::run(const Job& job) {

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "answer.hpp"
-#include "file_worker.hpp"
 #include "mailbox.hpp"
+#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 
@@ -31,7 +31,7 @@ class ProgramPlanner {
   explicit ProgramPlanner(Mailbox& mailbox) : mailbox_(mailbox) {}
   ~ProgramPlanner() { stop(); }
   /// Answers later; at once with 503 when too many wait.
-  void submit(Job job);
+  void submit(const Job& job);
   /// Drops what waits and ends what is under way.
   void stop();
 
@@ -46,7 +46,7 @@ class ProgramPlanner {
   Mailbox& mailbox_;
   std::atomic<bool> stopping_ = false;
   std::map<std::uint16_t, Kept> kept_;
-  FileWorker thread_;
+  Worker worker_{"gateway-plans", most_waiting};
 };
 
 }  // namespace trunnion::gateway

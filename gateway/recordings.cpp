@@ -21,8 +21,7 @@ using bus::Json;
 constexpr double longest = 7 * 24 * 3600;  // s of a recording
 constexpr std::size_t most_topics = 64;
 constexpr auto time_to_begin = std::chrono::seconds(3);
-constexpr double time_to_finish = 20;       // s for what still waits for the disk
-constexpr std::size_t most_requests = 256;  // that wait: their connections may be gone already
+constexpr double time_to_finish = 20;  // s for what still waits for the disk
 
 std::string time_text(std::int64_t nanoseconds, const char* format) {
   const std::time_t seconds = nanoseconds / 1000000000;
@@ -85,9 +84,7 @@ Json summary_of(cluster::ChildProcess& recorder) {
 }  // namespace
 
 void Recordings::handle(const Match& match, const RequestText& request, const Respond& respond) {
-  if (worker_.waiting() >= most_requests)
-    return respond(error_answer(503, std::to_string(most_requests) + " requests wait for files: try again"));
-  worker_.post([this, match, request, respond] {
+  const bool taken = worker_.offer([this, match, request, respond] {
     try {
       respond(answer(match, request));
     } catch (const BadRequest& bad) {
@@ -96,6 +93,7 @@ void Recordings::handle(const Match& match, const RequestText& request, const Re
       respond(refused_answer(0, error.what()));
     }
   });
+  if (!taken) respond(busy_answer());
 }
 
 void Recordings::stop() {

@@ -7,9 +7,9 @@
 
 #include "answer.hpp"
 #include "cluster/child_process.hpp"
-#include "file_worker.hpp"
 #include "src/recording_files.hpp"
 #include "src/router.hpp"
+#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 
@@ -26,7 +26,7 @@ class Recordings {
   ~Recordings() { stop(); }
   /// Operations on recordings; answers later, on the thread of the files.
   void handle(const Match& match, const RequestText& request, const Respond& respond);
-  FileWorker& worker() { return worker_; }
+  Worker& worker() { return worker_; }
   /// Ends a recording under way: its file is whole.
   void stop();
 
@@ -49,7 +49,7 @@ class Recordings {
   bool is_broken_ = false;  // by its disk or its recorder; messages may be missing otherwise, too
   bool noticed_ = true;     // its end
   cluster::ChildProcess recorder_;
-  FileWorker worker_;  ///< the last member: its thread ends before the others are destroyed
+  Worker worker_{"gateway-files"};  ///< the last member: its thread ends before the others are destroyed
 };
 
 }  // namespace trunnion::gateway

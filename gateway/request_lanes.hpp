@@ -4,8 +4,10 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <list>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bus/bus.hpp"
@@ -18,6 +20,8 @@ inline constexpr double resend_after = 0.2, give_up_after = 2.0;
 /// The latter for a part of a program that is stored: the service may be writing 100 MB of another one to a
 /// slow disk.
 inline constexpr double give_up_part_after = 20.0;
+/// Seconds after which who orders a stop is told that nobody has answered, and for which it is repeated.
+inline constexpr double stop_told_after = 0.3, stop_repeated_for = 10.0;
 /// So many requests in so many seconds: a reader that is read less often loses the oldest beyond 64
 /// (idl/topics.yaml, event), and would lose the same ones whenever they are sent again.
 inline constexpr std::size_t most_in_burst = 32;
@@ -49,6 +53,24 @@ class RequestLanes {
     send_due(now);
   }
 
+  /// As submit, for an order that stops motion: when nobody answers, `done` is called with nothing early and
+  /// the request is repeated all the same.
+  void submit_stop(Request request, Done done, double now) {
+    submit(std::move(request), std::move(done), now, stop_repeated_for);
+    under_way_.back().told_at = now + stop_told_after;
+  }
+  /// Ends the repetition of the stops that `which` chooses. To those of which nobody has been told yet
+  /// `otherwise` is the answer when none comes; without it they go on.
+  template <class Which>
+  void withdraw(Which which, const std::optional<Reply>& otherwise = {}) {
+    for (auto& one : under_way_) {
+      if (!one.told_at || !which(one.request) || (one.done && !otherwise)) continue;
+      one.due = std::numeric_limits<double>::infinity();
+      one.until = *one.told_at;
+      one.otherwise = otherwise;
+    }
+  }
+
   /// Takes replies in, for pump() to give them to those who asked; true when there are any.
   bool receive() {
     bool any = false;
@@ -69,7 +91,10 @@ class RequestLanes {
   void pump(double now) {
     for (auto one = under_way_.begin(); one != under_way_.end();) {
       const auto next = std::next(one);
-      if (one->reply || now >= one->until) finish(one);
+      if (one->reply || now >= one->until)
+        finish(one);
+      else if (one->told_at && now >= *one->told_at && one->done)
+        std::exchange(one->done, nullptr)(one->request, std::nullopt);
       one = next;
     }
     send_due(now);
@@ -91,7 +116,8 @@ class RequestLanes {
     std::optional<Lane> lane;
     double due = 0, until = 0;  ///< to be sent (again), to be given up
     bool repeated = false;
-    std::optional<Reply> reply = {};
+    std::optional<Reply> reply = {}, otherwise = {};
+    std::optional<double> told_at = {};  ///< of a stop: when `done` is called at the latest, once
   };
   // What was never sent comes first: an order does not wait for the repetitions of others.
   void send_due(double now) {
@@ -110,7 +136,7 @@ class RequestLanes {
     if (one->lane) idle_.push_back(*one->lane);
     const auto over = std::move(*one);
     under_way_.erase(one);
-    over.done(over.request, over.reply);
+    if (over.done) over.done(over.request, over.reply ? over.reply : over.otherwise);
   }
 
   bus::Writer<Request> writer_;

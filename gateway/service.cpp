@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service.hpp"
 
+#include <malloc.h>
+
 #include <ctime>
 #include <iostream>
 
@@ -76,6 +78,13 @@ void GatewayService::watch_certificate(double now) {
   say(alarm::certificate_refused, certificate_->refused());
 }
 
+void GatewayService::give_memory_back(double now) {
+  constexpr double given_back_every = 10;  // s
+  if (now - given_back_ < given_back_every) return;
+  given_back_ = now;
+  api_->files().post([] { malloc_trim(0); });
+}
+
 void GatewayService::begin_alarm_history(const std::string& file) {
   alarm_file_ = std::make_shared<AlarmFile>(file);
   auto& history = view_.alarm_history();
@@ -131,6 +140,7 @@ void GatewayService::pump() {
   links_.pump(now);
   watch_certificate(now);
   keep_alarm_history(now);
+  give_memory_back(now);
   if (now - published_ >= snapshot_period) publish(now, false);
 }
 

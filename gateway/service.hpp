@@ -46,6 +46,8 @@ class GatewayService : public service::Service {
   void publish(double now, bool with_replies);
   /// Looks at the files of the certificate, and says by alarms what is wrong with them.
   void watch_certificate(double now);
+  /// To the system, what large bodies and answers have held. On the thread of the files.
+  void give_memory_back(double now);
   void begin_alarm_history(const std::string& file);
   /// Writes what is new of the alarm history, on the thread of the files.
   void keep_alarm_history(double now);
@@ -65,7 +67,7 @@ class GatewayService : public service::Service {
   std::size_t appended_ = 0;  ///< bytes since the file was rewritten
   service::AlarmBoard& alarms_;
   std::optional<TlsCertificate> certificate_;
-  double watched_ = 0;
+  double watched_ = 0, given_back_ = 0;
   std::unique_ptr<mtconnect::Server> mtconnect_;
   double published_ = 0;
   std::string where_;

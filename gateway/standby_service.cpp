@@ -10,12 +10,17 @@ using bus::Json;
 
 constexpr double poll_period = 0.1;  // s
 
-// What depends neither on the time of the sample nor on what was before this process started.
-Json comparable(Json document) {
+// What depends neither on the time of the sample nor on what was before this process started: of axes at
+// rest for longer than the history of the feedback it knows the position alone, not the last cycle.
+Json comparable(Json document, bool executed) {
   document.erase("trace");
   document.erase("operating");
   if (document.contains("axes"))
-    for (auto& axis : document["axes"]) axis.erase("following_peak");
+    for (auto& axis : document["axes"]) {
+      axis.erase("following_peak");
+      if (executed) continue;
+      for (const char* of_last_cycle : {"commanded", "actual", "following_error"}) axis.erase(of_last_cycle);
+    }
   if (document.contains("alarms"))
     for (auto& alarm : document["alarms"]) alarm.erase("since");
   auto& services = document["services"];
@@ -24,17 +29,18 @@ Json comparable(Json document) {
   return document;
 }
 
-Json own(const Snapshot& snapshot) {
-  return Json::parse(bus::text_of(comparable(snapshot.document)));  // numbers as they come over the line
+Json own(const Snapshot& snapshot, bool executed) {
+  // Numbers as they come over the line.
+  return Json::parse(bus::text_of(comparable(snapshot.document, executed)));
 }
 
 // Null when no gateway answers there.
-Json running(const http_client::Server& gateway) {
+Json running(const http_client::Server& gateway, bool executed) {
   http_client::WebSocketClient client(gateway, "/api/stream");
   const auto first = client.open() ? client.next(gateway.timeout) : std::nullopt;
   auto message = first ? Json::parse(*first, nullptr, false) : Json();
   if (!message.is_object() || !message.contains("state")) return nullptr;
-  return comparable(std::move(message["state"]));
+  return comparable(std::move(message["state"]), executed);
 }
 
 }  // namespace
@@ -45,13 +51,14 @@ StandbyService::StandbyService(service::Node& node, const http_client::Server& g
 }
 
 void StandbyService::compare(double now) {
-  const auto before = own(*view_.snapshot(now));
-  const auto theirs = running(gateway_);
+  const bool executed = view_.executed();
+  const auto before = own(*view_.snapshot(now), executed);
+  const auto theirs = running(gateway_, executed);
   no_answer_ = theirs.is_null();
   if (no_answer_) return;
   const double then = service::monotonic_seconds();
   view_.drain(then);
-  comparison_.sample(theirs, before, own(*view_.snapshot(then)), then);
+  comparison_.sample(theirs, before, own(*view_.snapshot(then), executed), then);
 }
 
 void StandbyService::pump() {

@@ -43,7 +43,7 @@ reset_alarms() {
 }
 # await_state STATE: of channel 0.
 has_state() {
-  "$trunnion" topic echo channel_state --count 1 --json --domain "$domain" > "$work/state.json" 2>&1 &&
+  "$trunnion" topic echo channel_state --count 1 --timeout 5 --json --domain "$domain" > "$work/state.json" 2>&1 &&
     grep -q "\"state\":\"$1\"" "$work/state.json"
 }
 await_state() { wait_until "channel 0 is $1" has_state "$1"; }

@@ -36,7 +36,7 @@ grep -q '^0 20 40$' "$work/exported" || fail "$(cat "$work/exported")"
 # Half way between two values X has 30 um of its table.
 "$trunnion" mdi "G53 G1 X150 F3000" --domain "$domain" > "$work/log" || fail "$(cat "$work/log")"
 # The history comes first, then what is published at rest, behind the cycles of the motion.
-cycle=$("$trunnion" topic echo channel_state --count 1 --json --domain "$domain" | sed 's/.*"cycle":\([0-9]*\).*/\1/')
+cycle=$("$trunnion" topic echo channel_state --count 1 --timeout 60 --json --domain "$domain" | sed 's/.*"cycle":\([0-9]*\).*/\1/')
 "$trunnion" topic echo feedback_frame --json --domain "$domain" > "$work/frames" &
 listener=$!
 is_at_rest() { grep -s "\"first\":$cycle,\"count\":0,.*}\$" "$work/frames" > "$work/at_rest"; }

@@ -1,157 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine behind LinuxCNC's HAL: a real, headless HAL with its own simulated axes and switches. What HAL
-// does is also looked at from outside, with LinuxCNC's program halcmd.
-#include <sched.h>
-#include <sys/shm.h>
-
-#include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <sstream>
-
-#include "cluster_harness.hpp"
+// A machine behind LinuxCNC's HAL in use: references, programs, probes, inputs and outputs.
+#include "hal_fixture.hpp"
 
 namespace trunnion::integration {
 namespace {
-namespace fs = std::filesystem;
-
-constexpr int hal_memory = 0x48414c32;  // key of HAL's shared memory
-using idl::stream::DriveMode;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-void replace(const fs::path& path, const std::string& from, const std::string& to) {
-  auto text = text_of(path);
-  const auto at = text.find(from);
-  ASSERT_NE(at, std::string::npos) << path << " has no '" << from << "'";
-  std::ofstream(path) << text.replace(at, from.size(), to);
-}
-
-std::string output_of(const std::string& command) {
-  std::string text;
-  FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
-  char buffer[256];
-  while (pipe != nullptr && fgets(buffer, sizeof buffer, pipe) != nullptr) text += buffer;
-  if (pipe != nullptr) pclose(pipe);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
-}
-
-double signal(const std::string& name) {
-  const auto text = output_of("halcmd gets " + name);
-  if (text.empty()) ADD_FAILURE() << "HAL has no signal " << name;
-  return text == "TRUE" ? 1 : text == "FALSE" ? 0 : std::atof(text.c_str());
-}
-
-/// A copy of hal-sim-xyz whose queue and lead cover the stalls of a computer that runs other tests. One HAL
-/// can run on a computer; with a namespace of its own, which root can have, this test does not meet another
-/// one.
-struct Hal : ::testing::Test {
-  void SetUp() override {
-    if (geteuid() == 0) {
-      ASSERT_EQ(unshare(CLONE_NEWIPC), 0) << std::strerror(errno);
-    }
-    // Another user's or worktree's test may have HAL.
-    for (int i = 0; i < 600 && shmget(hal_memory, 0, 0) >= 0; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    directory = fs::temp_directory_path() / ("trunnion-hal-test-" + std::to_string(getpid()));
-    fs::remove_all(directory);
-    fs::copy(TRUNNION_HAL_MACHINE, directory, fs::copy_options::recursive);
-    replace(directory / "machine.yaml", "queue: 32", "queue: 200");
-    replace(directory / "parameters.yaml", "\"000900\": 160", "\"000900\": 500");
-    const auto port =
-        std::to_string(20000 + getpid() % 10000);  // of the Modbus server that trunnion-hal-io asks
-    replace(directory / "plc" / "modbus.yaml", "1502", port);
-    replace(directory / "io.yaml", "1502", port);
-    // A stalled computer is no lost connection: 0.5 s otherwise.
-    replace(directory / "plc" / "modbus.yaml", "timeout_ms: 500", "timeout_ms: 5000");
-  }
-  void TearDown() override {
-    cluster.reset();
-    fs::remove_all(directory);
-  }
-
-  void up() {
-    cluster.emplace(directory.string(), Time::real);
-    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }))
-        << cluster->told();
-    await_door(true);
-  }
-  /// Until the PLC has the input of the door, X24.2: an open one inhibits starts and jog.
-  void await_door(bool closed) {
-    auto images = cluster->client().bus().reader(topics::plc_image);
-    idl::plc::Image image;
-    EXPECT_TRUE(cluster->until([&] {
-      while (images.take(image)) continue;
-      return image.x.size() > 24 && (image.x[24] >> 2 & 1) == (closed ? 1 : 0);
-    })) << cluster->told();
-    EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(136) != closed; })) << cluster->told();
-  }
-  void begin_homing(std::uint8_t axis) {
-    cluster->client().set_mode(0, Mode::REF);
-    cluster::ChannelRequest request;
-    request.command = CommandKind::REFERENCE_AXIS;
-    request.axis = axis;
-    cluster->client().channel(request);
-    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::HOMING; }))
-        << cluster->told();
-  }
-  void home(std::uint8_t axis) {
-    begin_homing(axis);
-    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }, 60))
-        << cluster->told();
-  }
-  /// Before up(): HAL's positions are those of the machine, and no axis has to search a switch, which takes 6
-  /// s each.
-  void make_encoders_absolute() {
-    for (const char* axis : {"100", "101", "102"})
-      replace(directory / "parameters.yaml", "\"" + std::string(axis) + "920\": 1",
-              "\"" + std::string(axis) + "920\": 0");
-    replace(directory / "machine.hal", "setp probe.in1 -56", "setp probe.in1 -60");
-  }
-  void home_all() {
-    for (std::uint8_t axis = 0; axis < 3; ++axis) home(axis);
-  }
-  /// A long way in X at 100 mm/s.
-  void start_long_move() {
-    cluster->start_text("G90 G53 G0 X-100\nG1 X150 F6000\nX-100\nX150\nM30\n");
-    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.position[0] < -95; })) << cluster->told();
-    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.position[0] > -60; })) << cluster->told();
-  }
-  int drive_pid() {
-    cluster->until(
-        [&] { return cluster->service("drive") != nullptr && cluster->service("drive")->pid != 0; });
-    return cluster->service("drive")->pid;
-  }
-  /// Waits until HAL's axis X is at rest, and says where.
-  static double rest_of_x() {
-    double before = signal("x-position");
-    for (int i = 0, calm = 0; i < 400 && calm < 10; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      const double now = signal("x-position");
-      calm = std::abs(now - before) < 1e-6 ? calm + 1 : 0;
-      before = now;
-    }
-    return before;
-  }
-
-  fs::path directory;
-  std::optional<Cluster> cluster;
-};
 
 TEST_F(Hal, AxesWithoutAReferenceRefuseToMoveAndFindItAtTheirSwitches) {
   up();
-  cluster->client().set_mode(0, Mode::MDI);
-  cluster->client().mdi(0, "G53 G0 X5");
-  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(115, "X, Y, Z"); })) << cluster->told();
-  cluster->client().channel(0, CommandKind::RESET);
-  cluster->reset_alarms();
-  home_all();
+  for (const auto* axis : {"axis X ", "axis Y ", "axis Z "})
+    EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(115, axis); })) << cluster->told();
+  EXPECT_TRUE(cluster->until([&] { return !cluster->channels[0].homed; })) << cluster->told();
+  await_refusal("X, Y, Z");
+  home(0);
+  EXPECT_FALSE(cluster->channels[0].homed);
+  await_refusal("Y, Z");
+  home(1);
+  home(2);
+  EXPECT_TRUE(cluster->until([&] { return cluster->channels[0].homed; })) << cluster->told();
   // HAL has the switches at 12, 9 and 6; the machine positions of them are 10, 8 and 2. The edge is taken at
   // 1 mm/s, in a period of 1 ms; behind it an axis brakes from that speed.
   const double shift[] = {10 - 12, 8 - 9, 2 - 6};
@@ -234,10 +99,8 @@ TEST_F(Hal, ADeadHomeSwitchIsSearchedUntilAHoldAResetAModeOrAnOverrideOfZeroStop
   moved(rest);
   stop_by(CommandKind::FEED_HOLD);
   rests();
-  EXPECT_EQ(cluster->active_alarms(), "");
-  cluster->client().set_mode(0, Mode::MDI);
-  cluster->client().mdi(0, "G53 G0 X5");
-  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(115, "X, Y, Z"); })) << cluster->told();
+  EXPECT_FALSE(cluster->has_alarm(116)) << cluster->told();
+  await_refusal("X, Y, Z");
 }
 
 // Limits of -20 and 20 mm: the longest travel is 44 mm.
@@ -272,92 +135,6 @@ TEST_F(Hal, AProbeEndsAMoveAndItsPositionIsLatched) {
   EXPECT_NEAR(edges[0].position[2], -60, 0.02);
   EXPECT_GT(cluster->feedback.position[2], -75) << "braked the lead behind it";
   EXPECT_EQ(cluster->active_alarms(), "");
-}
-
-TEST_F(Hal, AKilledDriveLeavesTheAxesBrakedAndSwitchedOffByHal) {
-  up();
-  home_all();
-  start_long_move();
-  EXPECT_EQ(signal("drives-on"), 1);
-  const int launcher = *cluster->running().run.launcher();
-  kill(launcher, SIGSTOP);  // nobody starts the drive again meanwhile
-  const double at = signal("x-position");
-  kill(drive_pid(), SIGKILL);
-  const double rest = rest_of_x();
-  // 200 rows in the queue at 0.1 mm, what it takes to start halcmd, and braking: far from the end of the
-  // move.
-  EXPECT_LT(rest - at, 70);
-  EXPECT_EQ(signal("drives-on"), 0);
-  EXPECT_TRUE(cluster->until([] { return signal("amplifiers-on") == 0; })) << "0.3 s later";
-  EXPECT_EQ(signal("x-speed"), 0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_EQ(signal("x-position"), rest) << "it stays at rest";
-  cluster->drain();
-  cluster->feedback.mode = DriveMode::OFF;  // what the killed process has told is old
-  kill(launcher, SIGCONT);
-  // The next process finds the axes where they are, still homed, and the program can be gone on with.
-  EXPECT_TRUE(
-      cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING && cluster->ready(); }, 30))
-      << cluster->told();
-  EXPECT_NEAR(signal("x-position"), rest, 1e-6) << "switching on moves nothing";
-  EXPECT_NEAR(cluster->feedback.position[0] - rest, -2, 0.005) << "the reference is the old one";
-  EXPECT_TRUE(cluster->go_on()) << cluster->told();
-  EXPECT_TRUE(cluster->finish()) << cluster->told();
-}
-
-TEST_F(Hal, RowsThatAreMissingAreCountedAndTheAxesStopAtTheNewestOne) {
-  replace(directory / "machine.hal", "setp watchdog.timeout-0 0.05", "setp watchdog.timeout-0 5");
-  make_encoders_absolute();
-  up();
-  const auto starved = cluster->feedback.starved;
-  start_long_move();
-  const int pid = drive_pid();
-  kill(pid, SIGSTOP);
-  std::this_thread::sleep_for(std::chrono::milliseconds(900));
-  const double rest = rest_of_x();
-  kill(pid, SIGCONT);
-  // At least 0.9 s less the queue of 0.2 s, and what this process itself was slow.
-  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.starved > starved + 400; })) << cluster->told();
-  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(110, "without setpoints"); }))
-      << cluster->told();
-  EXPECT_TRUE(cluster->until([&] { return cluster->state() == RunState::INTERRUPTED; })) << cluster->told();
-  EXPECT_NEAR(rest_of_x(), rest, 1.0) << "it holds where it has stopped";
-  EXPECT_TRUE(cluster->go_on()) << cluster->told();
-  EXPECT_TRUE(cluster->finish()) << cluster->told();
-}
-
-TEST_F(Hal, AFaultOfADriveSwitchesAllOffAndIsNamed) {
-  make_encoders_absolute();
-  up();
-  start_long_move();
-  output_of("halcmd sets x-fault 1");
-  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(114, "axis X"); })) << cluster->told();
-  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::OFF; })) << cluster->told();
-  rest_of_x();
-  EXPECT_TRUE(cluster->until([] { return signal("enable") == 0; })) << "behind the rows in the queue";
-  EXPECT_TRUE(cluster->until([] { return signal("amplifiers-on") == 0; })) << "0.3 s later";
-  output_of("halcmd sets x-fault 0");
-  cluster->until([] { return false; }, 0.3);
-  EXPECT_EQ(cluster->feedback.mode, DriveMode::OFF) << "until the alarms are reset";
-  cluster->client().channel(0, CommandKind::RESET);
-  cluster->reset_alarms();
-  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }))
-      << cluster->told();
-}
-
-// The signal of the encoder keeps its last value, and the control of HAL drives the motor ever faster behind
-// its setpoints.
-TEST_F(Hal, AnAxisWhoseEncoderIsLostIsSwitchedOffAndBrakedByHal) {
-  make_encoders_absolute();
-  up();
-  start_long_move();
-  output_of("halcmd unlinkp encoder.x.out");
-  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(119, "Axis X does not follow"); }))
-      << cluster->told();
-  EXPECT_TRUE(cluster->until([] { return signal("enable") == 0 && signal("drives-on") == 0; }));
-  EXPECT_TRUE(cluster->until([] { return signal("x-speed") == 0; }));
-  EXPECT_EQ(cluster->feedback.mode, DriveMode::OFF);
-  EXPECT_TRUE(cluster->until([&] { return cluster->channels[0].needs_reset; })) << cluster->told();
 }
 
 TEST_F(Hal, InputsAndOutputsOfThePlcAreItsPinsAndOutputsEndWithThePlc) {
@@ -456,29 +233,6 @@ TEST_F(Hal, M19IsFinishedWhenTheSpindleIsHeldAtItsAngle) {
   EXPECT_GT(angle, 1) << "it has turned before";
   cluster->until([] { return false; }, 0.5);
   EXPECT_NEAR(signal("s-angle"), angle, 0.001) << "it is held";
-}
-
-TEST_F(Hal, NothingIsLeftWhenTheClusterIsDown) {
-  up();
-  const auto session =
-      "/tmp/trunnion-hal-" + std::to_string(getuid()) + "-" + std::to_string(cluster->running().run.domain);
-  EXPECT_TRUE(fs::exists(session + "/ready"));
-  EXPECT_GE(shmget(hal_memory, 0, 0), 0);
-  cluster.reset();
-  EXPECT_FALSE(fs::exists(session));
-  EXPECT_LT(shmget(hal_memory, 0, 0), 0) << "HAL is still there";
-}
-
-TEST_F(Hal, AFaultyFileIsRefusedWithItsLine) {
-  replace(directory / "machine.hal", "setp probe.in1 -56", "setp probe.in2 -56");
-  try {
-    up();
-    FAIL() << "it was started";
-  } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find("machine.hal:"), std::string::npos) << e.what();
-    EXPECT_NE(std::string(e.what()).find("probe.in2"), std::string::npos) << e.what();
-  }
-  cluster.reset();
 }
 
 }  // namespace

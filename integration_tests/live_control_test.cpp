@@ -6,6 +6,8 @@
 
 #include "cluster_harness.hpp"
 #include "http_client/client.hpp"
+#include "machine/alarm_constants.hpp"
+#include "machine_copy.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -247,6 +249,33 @@ TEST(LiveControl, AJogStopsWithinItsRenewalTimeWhenTheGatewayHangs) {
   EXPECT_LT(x() - hung_at, 50 * (0.25 + 0.032 + 0.05 + 0.1));
   kill(cluster.service("gateway")->pid, SIGCONT);
   EXPECT_EQ(post("jog-renew", R"({"press":77})"), 409) << "a renewal starts nothing";
+}
+
+// The panel is a client of the PLC's Modbus server, which this test does not need: it presses nothing.
+TEST(LiveControl, AProgramRunsOnWithoutItsPageWhereAPanelHoldsAndStops) {
+  const MachineCopy machine("ac-table");
+  machine.append("machine.yaml")
+      << "gateway_loss:\n  continue_with: {feed_hold: X200.0, emergency_stop: X200.1}\n";
+  machine.replace("plc/fast.st", "feed_hold := feed_hold_button;",
+                  "feed_hold := feed_hold_button OR %X200.0;");
+  machine.replace("plc/fast.st", "IF emergency_stop_button THEN", "IF emergency_stop_button OR %X200.1 THEN");
+  machine.append("plc/modbus.yaml") << "server: {port: " << http_client::free_port()
+                                    << ", inputs: [{table: coils, address: 0, count: 2, at: X200.0}]}\n";
+  Cluster cluster(machine.path(), Time::virtual_, "", true);
+  select(cluster, long_program());
+  cluster.cycle_start();
+  ASSERT_TRUE(
+      cluster.until([&] { return cluster.state() == RunState::RUNNING && cluster.feedback.first > 0; }));
+  const auto gateway = *cluster.service("gateway");
+  kill(gateway.pid, SIGKILL);
+  ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(alarm::page_lost.number); })) << cluster.told();
+  ASSERT_TRUE(cluster.until([&] {
+    const auto* now = cluster.service("gateway");
+    return now && now->pid != gateway.pid && now->ready;
+  }));
+  EXPECT_TRUE(cluster.finish()) << cluster.told();
+  for (const auto& heard : cluster.history) EXPECT_NE(heard.number, alarm::service_lost.number) << heard.text;
+  EXPECT_TRUE(cluster.has_alarm(alarm::page_lost.number)) << "the warning stays until it is reset";
 }
 
 }  // namespace

@@ -84,7 +84,16 @@ TEST(Machines, MessagesThatNoFieldCanHaveAreRefusedAndTheMachineRunsOn) {
   idl::stream::AxisFrame frame;
   frame.count = 1, frame.axes = {0}, frame.setpoints = {std::numeric_limits<double>::quiet_NaN()};
   send(frames, frame, "trunnion/gantry/axis_frame/1, the newest: setpoints: not a finite number");
-  frame.setpoints = {0}, frame.revision = 12345;
+  frame.setpoints = {0};
+  send(frames, frame, "trunnion/gantry/axis_frame/1, the newest: lines: 0 values, must be 1 rows of 1");
+  idl::stream::FeedbackFrame feedback;
+  feedback.axis_count = 65535;
+  auto reports = bus.writer(topics::feedback_frame);
+  send(reports, feedback, "plc refused");
+  idl::stream::PathFrame path;
+  auto paths = bus.writer(topics::path_frame);
+  send(paths, path, "trunnion/channel/path_frame/1, the newest: count: 0, must be 1 to 64");
+  frame.lines = {0}, frame.revision = 12345;
   send(frames, frame, "parameter revision 12345, which has not arrived");
   idl::parameters::ParameterSet set;
   set.values = {{100006, std::numeric_limits<double>::infinity(), ""}};

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # mdi_commands.sh TRUNNION MACHINES PYTHON: mdi on a machine of two channels prints where the axes of its own channel are, after
-# its own line.
+# its own line; errors are those of its own line.
 set -euo pipefail
 trunnion=$1 python=$3
 . "$(dirname "$0")/cluster.sh"
@@ -25,3 +25,45 @@ line=$!
 await_alarm ' 151 '
 "$trunnion" channel start --take-right --domain "$domain"
 wait "$line" || fail "$(cat "$work/message")"
+
+# A line that repeats for ever is shown, does not keep the other channel from moving, ends by reset, and blames nobody.
+if "$trunnion" mdi "M99" --timeout 3 --domain "$domain" 2> "$work/said"; then fail "a line without an end ends"; fi
+grep -q 'within 3 s: line 1: .* lines were read without a motion; reset ends it' "$work/said" || fail "$(cat "$work/said")"
+"$trunnion" mdi "G0 X19" --channel 1 --domain "$domain" > "$work/said" 2>&1 || fail "$(cat "$work/said")"
+"$trunnion" channel reset --domain "$domain"
+"$trunnion" mdi "G0 X3" --domain "$domain" > "$work/said" 2>&1 || fail "$(cat "$work/said")"
+"$trunnion" alarms --domain "$domain" > "$work/alarms"
+if grep -q ' 172 ' "$work/alarms"; then fail "$(cat "$work/alarms")"; fi
+
+# An alarm that is shown already is not the line's, and one that comes again is.
+printf 'G1 X4 F1000\nGOTO 99\nM30\n' > "$work/label.nc"
+"$trunnion" program put "$work/label.nc" --domain "$domain" > "$work/said" 2>&1 || fail "$(cat "$work/said")"
+"$trunnion" channel mode auto --domain "$domain"
+run_to_end label.nc
+await_alarm 'label.nc:2'
+"$trunnion" mdi "G0 X5" --domain "$domain" > "$work/said" 2>&1 || fail "$(cat "$work/said")"
+"$trunnion" channel mode auto --domain "$domain"
+printf 'GOTO 3\nG1 X4 F1000\nN3 M30\n' > "$work/jump.nc"
+"$trunnion" program put "$work/jump.nc" --domain "$domain" > "$work/said" 2>&1 || fail "$(cat "$work/said")"
+select_program jump.nc
+for attempt in 1 2; do
+  if "$trunnion" channel start --from-line 2 --domain "$domain" 2> "$work/said"; then fail "a line that is not reached is found"; fi
+  grep -q 'alarm 170: .*without reaching this line' "$work/said" || fail "$attempt: $(cat "$work/said")"
+done
+
+# What a search has announced is over when the program starts.
+printf 'G1 X4 F1000\nX5\nM30\n' > "$work/line.nc"
+"$trunnion" program put "$work/line.nc" --domain "$domain" > "$work/said" 2>&1 || fail "$(cat "$work/said")"
+select_program line.nc
+"$trunnion" channel start --from-line 2 --domain "$domain" > "$work/said" 2>&1 || fail "$(cat "$work/said")"
+await_alarm ' 171 '
+"$trunnion" channel start --domain "$domain"
+await_idle
+"$trunnion" alarms --domain "$domain" > "$work/alarms"
+if grep -q ' 171 ' "$work/alarms"; then fail "$(cat "$work/alarms")"; fi
+
+# A listener ends with the reader of its output, also when nothing is published any more.
+topic=("$trunnion" topic echo cluster --json --domain "$domain")
+status=0
+timeout 60 bash -c '"$@" | head -n 1; exit "${PIPESTATUS[0]}"' listener "${topic[@]}" > "$work/said" || status=$?
+[ $status = 141 ] || fail "the listener ended with $status, not with 141 (SIGPIPE): $(cat "$work/said")"

@@ -125,6 +125,19 @@ TEST_F(OneCluster, AStateDirectoryAmongTheRunFilesIsRefused) {
   EXPECT_THAT(refusal(up), HasSubstr("whose files are removed when a cluster stops"));
 }
 
+// `trunnion up` leaves such a machine running, to be corrected; who has started a cluster for a task of its
+// own does not.
+TEST_F(OneCluster, AStartWithParametersThatNoChannelCanUseFailsAndLeavesNothing) {
+  fs::create_directories(state());
+  std::ofstream(state() + "/parameters.yaml") << "# saved\n\"040425\": 33\n";
+  auto up = options();
+  up.domain = cluster::free_domain(10);
+  up.state_directory = state();
+  EXPECT_THAT(refusal(up), AllOf(HasSubstr("not ready: channel (channel 0, parameters "),
+                                 HasSubstr("two rotary axes have the same letter")));
+  EXPECT_FALSE(fs::exists(cluster::RunDirectory{*up.domain}.path()));
+}
+
 TEST_F(OneCluster, WhatAKilledLauncherHasLeftIsNamedAndTakenOver) {
   auto up = options();
   up.domain = cluster::free_domain(10);

@@ -43,7 +43,7 @@ for vendor in cyclonedds fastdds; do
   "$trunnion" verify --service channel --recording "$work/$vendor.mcap" --machine "$2/ac-table" > "$work/verify" 2>&1 ||
     fail "$vendor: $(cat "$work/verify")"
 
-  start_recording "$work/$vendor-suspended.mcap" "$work/suspended"
+  start_recording "$work/$vendor.mcap" "$work/suspended" --force
   command=$recorder
   process=$(pgrep -P $command || echo $command)
   kill -STOP $process

@@ -15,6 +15,14 @@ recorder=$!
 kill -TERM $recorder
 wait $recorder || fail "the recorder lost something: $(cat "$work/log")"
 "$trunnion" diff "$golden" "$work/again.mcap" > "$work/diff" || fail "$(cat "$work/diff")"
+
+# A recording is not replaced by another, unless that is wanted.
+status=0
+said=$("$trunnion" record "$work/again.mcap" --domain "$3" 2>&1) || status=$?
+[ $status = 1 ] &&
+  [ "$said" = "trunnion: $work/again.mcap: it exists already: choose another name, or replace it with --force" ] || fail "$said"
+"$trunnion" diff "$golden" "$work/again.mcap" > "$work/diff" || fail "$(cat "$work/diff")"
+
 # Messages but those of the recorders themselves.
 messages() {
   "$trunnion" info "$1" > "$work/info"
@@ -40,3 +48,29 @@ echo nonsense > "$work/nonsense.mcap"
 status=0
 said=$("$trunnion" info "$work/nonsense.mcap" 2>&1) || status=$?
 [ $status = 1 ] && [ "$said" = "trunnion: $work/nonsense.mcap: not an MCAP file: the magic bytes are missing" ] || fail "$said"
+
+# One wrong byte: what is behind its chunk is read, what is missing is named, and nothing is verified or measured with it.
+whole=$2/ac-table/recordings/golden.mcap
+cp "$whole" "$work/damaged.mcap"
+at=250000
+printf '%b' "$(printf '\\x%02x' $(($(od -An -tu1 -j $at -N1 "$whole") ^ 1)))" |
+  dd of="$work/damaged.mcap" bs=1 seek=$at conv=notrunc 2> /dev/null
+named='bytes [0-9]* to [0-9]*, messages of .*Z to .*Z: the chunk '
+"$trunnion" info "$work/damaged.mcap" > "$work/info"
+grep -q "^damaged    $named" "$work/info" || fail "$(cat "$work/info")"
+last() { "$trunnion" export "$1" --csv feedback_frame 2> "$work/said" | tail -1; }
+[ "$(last "$whole")" = "$(last "$work/damaged.mcap")" ] || fail "nothing is read behind the damage"
+grep -q "$work/damaged.mcap: warning: damaged, $named" "$work/said" || fail "export: $(cat "$work/said")"
+# refuses COMMAND...: with status 1, and names what is missing.
+refuses() {
+  status=0
+  "$trunnion" "$@" > "$work/said" 2>&1 || status=$?
+  [ $status = 1 ] && grep -q "damaged, $named" "$work/said" || fail "$*: status $status, $(cat "$work/said")"
+}
+refuses diff "$whole" "$work/damaged.mcap"
+refuses verify --service kinematics --recording "$work/damaged.mcap" --machine "$2/ac-table"
+refuses measure circle --recording "$work/damaged.mcap" --source encoder
+printf 'tests:\n  - {recording: damaged.mcap, services: [kinematics], machine: %s}\n' "$2/ac-table" > "$work/suite.yaml"
+refuses test "$work/suite.yaml"
+"$trunnion" replay "$work/damaged.mcap" --only alarm --rate 1000 --domain "$3" > "$work/said" 2>&1 || fail "$(cat "$work/said")"
+grep -q "warning: damaged, $named" "$work/said" || fail "replay: $(cat "$work/said")"

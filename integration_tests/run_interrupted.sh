@@ -8,7 +8,7 @@ fail() { echo "$1"; cat "$work/said"; exit 1; }
 
 # In motion: the drive executes setpoints of the program.
 moves() {
-  "$trunnion" topic echo channel_state --count 1 --json --domain "$in_domain" > "$work/state" 2>&1 &&
+  "$trunnion" topic echo channel_state --count 1 --timeout 5 --json --domain "$in_domain" > "$work/state" 2>&1 &&
     grep -q '"state":"RUNNING"' "$work/state" && ! grep -q '"feed":0\.0,' "$work/state"
 }
 names_domain() { grep -q "is ready in .*domain [0-9]*)" "$work/said" || ! kill -0 "$run" 2> /dev/null; }

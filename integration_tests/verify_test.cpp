@@ -86,20 +86,40 @@ TEST(Verify, AServiceThatAnswersNothingIsAProblemAfterItsPatience) {
   EXPECT_FALSE(result.equal());
 }
 
-TEST(Verify, ACutOffRecordingIsVerifiedAsFarAsItGoes) {
+TEST(Verify, ACutOffRecordingIsVerifiedAsFarAsItGoesAndSaidToBe) {
   auto options = golden("ac-table", "kinematics");
+  EXPECT_EQ(verification::verify(options).cut_off, "");
   const auto part = fs::temp_directory_path() / ("trunnion-part-" + std::to_string(getpid()) + ".mcap");
   fs::copy_file(options.recording, part);
   fs::resize_file(part, fs::file_size(part) * 3 / 4);
   options.recording = part.string();
-  try {
-    const auto result = verification::verify(options);
-    EXPECT_TRUE(result.equal()) << result.problem;
-  } catch (const std::runtime_error& e) {
-    // One chunk, and it is not whole.
-    EXPECT_NE(std::string(e.what()).find("the recording has no"), std::string::npos) << e.what();
-  }
+  const auto result = verification::verify(options);
+  EXPECT_TRUE(result.equal()) << result.problem;
+  EXPECT_EQ(result.cut_off.rfind("the file ends ", 0), 0u) << result.cut_off;
   fs::remove(part);
+}
+
+TEST(Verify, ARecordingWithAWrongByteIsRefusedAndSaysWhatIsMissing) {
+  auto options = golden("ac-table", "kinematics");
+  const auto copy = fs::temp_directory_path() / ("trunnion-damaged-" + std::to_string(getpid()) + ".mcap");
+  fs::copy_file(options.recording, copy);
+  std::fstream file(copy, std::ios::in | std::ios::out | std::ios::binary);
+  const auto middle = static_cast<std::streamoff>(fs::file_size(copy) * 2 / 3);
+  file.seekg(middle);
+  const char wrong = static_cast<char>(file.get() ^ 1);
+  file.seekp(middle).put(wrong);
+  file.close();
+  options.recording = copy.string();
+  for (const std::string service : {"kinematics", "gateway"}) {
+    options.service = service;
+    try {
+      verification::verify(options);
+      ADD_FAILURE() << service << " is verified";
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()).rfind(copy.string() + ": damaged, bytes ", 0), 0u) << error.what();
+    }
+  }
+  fs::remove(copy);
 }
 
 }  // namespace

@@ -85,6 +85,9 @@ def body_schema(row, idl):
 def operation(rows, idl, parameters):
     bodies = [body_schema(row, idl) for row in rows]
     answers = {"200": {"description": "Accepted", "content": content({"$ref": "#/components/schemas/Accepted"})}}
+    if rows[0].get("motion") == "stops":
+        answers["202"] = {"description": "The channel has not answered yet: the stop is repeated until it does",
+                          "content": content({"$ref": "#/components/schemas/Repeated"})}
     for status, name in (("400", "BadRequest"), ("404", "NotFound"), ("409", "Refused"), ("413", "TooLarge"), ("504", "Silent")):
         answers[status] = {"$ref": f"#/components/responses/{name}"}
     more = rows[0].get("more")

@@ -4,15 +4,16 @@
 
 gateway/openapi.json gets its entries from generate_api.py, which reads the same table.
 """
-import argparse, os, sys
+import argparse, os, sys, textwrap
 import yaml
 from generate_contracts import Parser
 
 FIELD_KEYS = {"name", "into", "argument", "about", "unit", "minimum", "maximum", "nonzero", "one_of", "optional",
               "word_optional"}
-CHANNEL_KEYS = {"command", "route", "choice", "word", "about", "more", "modes", "busy", "stream", "refused", "fields"}
+CHANNEL_KEYS = {"command", "route", "choice", "word", "about", "more", "modes", "busy", "stream", "motion", "refused", "fields"}
 PANEL_KEYS = {"command", "stream", "route", "word", "about", "more"}
 QUANTITIES = {"double", "int32", "uint32"}  # the smaller types are numbers of axes and masks, with limits of their own
+MOTIONS = ("neither", "starts", "stops")
 GIVEN_BY_CLIENT = {"client", "number", "channel", "command"}
 
 
@@ -33,6 +34,7 @@ def check(table, path, idl):
             if row["command"] not in kinds: fail(row, "no such enumerator")
             if names.count(row["command"]) > 1: fail(row, "is there twice")
             if unknown := set(row) - keys: fail(row, f"unknown keys {sorted(unknown)}")
+            if row.get("motion", "neither") not in MOTIONS: fail(row, f"no such motion: {row['motion']}")
             for mode in row.get("modes", []):
                 if mode not in modes: fail(row, f"no such mode: {mode}")
             for field in row.get("fields", []):
@@ -84,7 +86,7 @@ def cpp(table):
             out.append(f"constexpr Mode {modes}[] = {{{', '.join('Mode::' + m for m in row['modes'])}}};")
         choice = next(iter(row.get("choice", {"": ""}).items()))
         rows.append(f"    {{CommandKind::{row['command']}, {quoted(row['route'])}, {quoted(choice[0])}, {quoted(choice[1])}, "
-                    f"{quoted(row['word'])}, {quoted(row['about'])}, {modes}, {flag(row.get('busy'))}, {flag(row.get('stream'))}, {fields}}},")
+                    f"{quoted(row['word'])}, {quoted(row['about'])}, {modes}, {flag(row.get('busy'))}, {flag(row.get('stream'))}, Motion::{row.get('motion', 'neither')}, {fields}}},")
     out += ["constexpr ChannelCommand channel_rows[] = {"] + rows + ["};", "constexpr PanelCommand panel_rows[] = {"]
     out += [f"    {{PanelRequestKind::{r['command']}, {flag(r.get('stream'))}, {quoted(r['route'])}, {quoted(r['word'])}, {quoted(r['about'])}}}," for r in table["panel"]]
     out += ["};", "}  // namespace", "", "std::span<const ChannelCommand> channel_commands() { return channel_rows; }",
@@ -115,7 +117,12 @@ def document(table):
            "Generated from `idl/operator_commands.yaml`. Each command is a POST (body and answers: `/api/openapi.json`), a word of",
            "`trunnion channel` or `trunnion estop`, and a request on the bus (`idl/channel.idl`, `idl/plc.idl`). A refusal says why",
            "and changes nothing. *Busy* means that a program, an MDI line, a jog or the handwheel is being executed. What a function",
-           "does in detail is in [operating.md](operating.md).", "",
+           "does in detail is in [operating.md](operating.md).", ""]
+    stops = [f"`{row['route']}`" for row in table["channel"] if row.get("motion") == "stops"]
+    starts = [f"`{row['route']}`" for row in table["channel"] if row.get("motion") == "starts"]
+    out += [*textwrap.wrap(f"Over HTTP {' and '.join(stops)} are answered 202 when the channel does not answer within 0.3 s: the gateway "
+                           f"repeats them until it does, for 10 s at most. A later {', '.join(starts[:-1])} or {starts[-1]} for the "
+                           "channel ends that. Any other command without an answer is 504 after 2 s and is not kept.", 120), "",
            "## To a channel", "",
            "| `POST /api/channels/N/…` | `trunnion channel …` | what it does | fields | refused |", "|---|---|---|---|---|"]
     for row in table["channel"]:

@@ -17,7 +17,7 @@
 #include "cluster/operating_station.hpp"
 #include "commands.hpp"
 #include "commands/channel_request.hpp"
-#include "machine/service_constants.hpp"
+#include "new_alarms.hpp"
 #include "stored_program.hpp"
 
 namespace trunnion::cli {
@@ -50,25 +50,19 @@ idl::channel::ChannelRequest request_of(cluster::Client& client, const ChannelOp
 }
 
 // The search for the line is over when the channel is held, or idle again because it failed.
-std::string await_line(cluster::Client& client, std::uint16_t channel) {
+std::string await_line(cluster::Client& client, std::uint16_t channel, NewAlarms& alarms) {
   auto states = client.reader_from_now(topics::channel_state);
-  auto alarms = client.bus().reader(topics::alarm);
   const double until = service::monotonic_seconds() + 60;
-  std::string alarm;
   idl::channel::ChannelState state;
   int idle = 0;
   while (service::monotonic_seconds() < until) {
-    idl::service::Alarm a;
-    while (alarms.take(a))
-      if (a.source == machine::service::channel.name && a.part == channel &&
-          a.severity >= idl::service::Severity::ERROR)
-        alarm = "alarm " + std::to_string(a.number) + ": " + a.text;
+    const auto& error = alarms.error();
     while (states.take(state)) {
       if (state.channel != channel) continue;
       if (state.state == RunState::HELD) return state.detail;
       idle = state.state == RunState::IDLE ? idle + 1 : 0;
     }
-    if (idle > 3) throw std::runtime_error(alarm.empty() ? "the line was not found" : alarm);
+    if (idle > 3) throw std::runtime_error(error.empty() ? "the line was not found" : error);
     client.bus().signal().wait(0.02);
   }
   throw std::runtime_error("the line was not found within 60 s");
@@ -103,10 +97,12 @@ int run_command(const Common& common, const ChannelOptions& options) {
     station.emplace(cluster.run.domain, options.take_over);
   const bool jogs_until_released = request.command == CommandKind::JOG_AXIS && request.increment == 0;
   if (jogs_until_released && request.press == 0) request.press = std::random_device{}() | 1u;
+  std::optional<NewAlarms> alarms;
+  if (options.word == "start" && options.from_line != 0) alarms.emplace(client, options.channel);
   client.channel(request);
   if (jogs_until_released) renew_until_released(client, request);
   std::string detail;
-  if (options.word == "start" && options.from_line != 0) detail = await_line(client, options.channel);
+  if (alarms) detail = await_line(client, options.channel, *alarms);
   if (common.json)
     std::cout << bus::text_of({{"accepted", true}, {"detail", detail}}) << "\n";
   else if (!detail.empty())

@@ -55,6 +55,7 @@ ChannelMotion motion_of_recording(const std::string& file, std::uint16_t channel
                                   machine::Parameters& parameters) {
   recording::FileSource source(file);
   const auto capture = report::read_capture(source, channel);
+  if (capture.damaged) throw std::runtime_error(file + ": " + capture.problem);
   if (!capture.has_parameters) throw std::runtime_error(file + ": no parameters: " + capture.problem);
   if (capture.path.empty() || capture.actual.width == 0)
     throw std::runtime_error(file + ": no motion of channel " + std::to_string(channel) +

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// up, down, status
+// up, status
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -34,10 +33,14 @@ CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, co
 
 namespace {
 
-// Where start_cluster() will look for what is saved.
-std::string state_directory_of(const cluster::UpOptions& options, const std::string& machine) {
-  if (!options.state_directory.empty()) return options.state_directory;
-  return cluster::default_state_directory(machine::load_machine(machine).name);
+// It runs with its drives off. What is wrong can be corrected only where it runs.
+int report_fault(const cluster::RunningCluster& cluster) {
+  std::fprintf(stderr,
+               "trunnion: %s runs in domain %u with its drives off, %s\n"
+               "Correct what is named, a parameter with 'trunnion param set' and 'trunnion channel reset'; "
+               "'trunnion down' stops the machine\n",
+               cluster.machine.c_str(), cluster.run.domain, cluster.fault.c_str());
+  return 1;
 }
 
 int up(const Common& common, cluster::UpOptions options, const std::string& time) {
@@ -45,8 +48,8 @@ int up(const Common& common, cluster::UpOptions options, const std::string& time
     throw std::runtime_error("--domain and --free-domain exclude each other: give one of them");
   options.domain = common.domain;
   if (!time.empty()) options.virtual_time = time == "virtual";
-  const auto directory = cluster::find_machine(options.machine);
-  machine_check::require_good(directory, state_directory_of(options, directory));
+  options.keep_faulty = true;
+  machine_check::require_good(cluster::find_machine(options.machine));
   const auto cluster = cluster::start_cluster(options);
   if (options.foreground) return 0;
   if (common.json) {
@@ -54,10 +57,11 @@ int up(const Common& common, cluster::UpOptions options, const std::string& time
                       {"domain", cluster.run.domain},
                       {"ready_seconds", cluster.start_seconds},
                       {"state", cluster.state_directory},
-                      {"port", cluster.port}}
+                      {"port", cluster.port},
+                      {"fault", cluster.fault}}
                      .dump()
               << "\n";
-  } else {
+  } else if (cluster.fault.empty()) {
     std::printf("%s %s in %.2f s, domain %u, state in %s\n", cluster.machine.c_str(),
                 cluster.host.empty() ? "is ready" : ("runs what host " + cluster.host + " has").c_str(),
                 cluster.start_seconds, cluster.run.domain, cluster.state_directory.c_str());
@@ -65,27 +69,7 @@ int up(const Common& common, cluster::UpOptions options, const std::string& time
     if (cluster.port != 0)
       std::printf("Operate it at %s://localhost:%u\n", tls ? "https" : "http", cluster.port);
   }
-  return 0;
-}
-
-int down(const Common& common) {
-  bool cleared = false;
-  for (const auto& run : cluster::run_directories())
-    if (run.abandoned() && (!common.domain || *common.domain == run.domain)) {
-      run.remove();
-      cleared = true;
-      std::fprintf(stderr, "Removed what the killed cluster in domain %u had left\n", run.domain);
-    }
-  const auto all = cluster::run_directories();
-  if (cleared && std::none_of(all.begin(), all.end(), [](const auto& run) { return run.launcher(); }))
-    return 0;
-  const auto cluster = cluster::find_cluster(common.domain);
-  cluster::stop_cluster(cluster.run);
-  if (common.json)
-    std::cout << Json{{"stopped", cluster.machine}}.dump() << "\n";
-  else
-    std::printf("%s is down\n", cluster.machine.c_str());
-  return 0;
+  return cluster.fault.empty() ? 0 : report_fault(cluster);
 }
 
 // Host and, of a channel, its number.
@@ -264,9 +248,6 @@ void add_cluster_commands(CLI::App& app, Common& common) {
                     "After a crash: end processes that a killed launcher has left in this state directory or "
                     "domain");
   command->add_flag("--foreground", options->foreground, "Stay in the foreground until Ctrl-C");
-  add_command(app, common, "down",
-              "Stop a cluster (of several hosts: the part on this one); nothing of it is left but its state",
-              [&common] { return down(common); });
   add_command(app, common, "status",
               "Table of the services: vendor, pid, state, uptime, rates; the alarms; what the PLC inhibits. "
               "Exit status "

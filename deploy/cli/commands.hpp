@@ -23,7 +23,8 @@ struct Common {
   std::function<int()> action;  ///< of the sub-command that was parsed
 };
 
-void add_cluster_commands(CLI::App& app, Common& common);      // up, down, status
+void add_cluster_commands(CLI::App& app, Common& common);      // up, status
+void add_down_command(CLI::App& app, Common& common);          // down
 void add_run_command(CLI::App& app, Common& common);           // run
 void add_operator_commands(CLI::App& app, Common& common);     // mdi, alarms, estop
 void add_channel_command(CLI::App& app, Common& common);       // channel

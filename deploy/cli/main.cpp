@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   Common common;
   add_cluster_commands(app, common);
+  add_down_command(app, common);
   add_run_command(app, common);
   add_operator_commands(app, common);
   add_channel_command(app, common);

@@ -44,7 +44,9 @@ std::uint64_t MeasurementSession::order(MeasurementRequest request) {
   request.who = user_name().substr(0, most_user);
   const auto operation = request.operation;
   const auto reply = requests_.call(std::move(request), answer_within);
-  if (!reply) throw std::runtime_error("the measurement service does not answer");
+  if (!reply)
+    throw std::runtime_error(
+        service::silence("the measurement service", answer_within, requests_.connected()));
   if (!reply->accepted) throw std::runtime_error(reply->reason);
   const bool moves = operation == Operation::START || operation == Operation::CONTINUE;
   shown_ = operation == Operation::START ? 0 : state().complete;

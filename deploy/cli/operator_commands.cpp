@@ -14,7 +14,7 @@
 #include "cluster/operating_station.hpp"
 #include "commands.hpp"
 #include "commands/command_table.hpp"
-#include "machine/service_constants.hpp"
+#include "new_alarms.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -26,12 +26,12 @@ using idl::channel::RunState;
 // is the reason of the failure.
 idl::channel::ChannelState run_line(cluster::Client& client, std::uint16_t channel, const std::string& text,
                                     double timeout) {
-  auto alarms = client.bus().reader(topics::alarm);
   client.set_mode(channel, Mode::MDI);
+  NewAlarms alarms(client, channel);
   client.mdi(channel, text);
   auto reader = client.reader_from_now(topics::channel_state);
   const double until = service::monotonic_seconds() + timeout;
-  std::string alarm;
+  std::string detail;
   std::optional<std::vector<double>> before;  // at the end of the line
   constexpr double settled = 1e-4;            // mm or deg between two states
   while (service::monotonic_seconds() < until) {
@@ -39,6 +39,7 @@ idl::channel::ChannelState run_line(cluster::Client& client, std::uint16_t chann
     idl::channel::ChannelState state;
     while (!end && reader.take(state)) {
       if (state.channel != channel) continue;
+      detail = state.detail;
       if (state.state != RunState::INTERRUPTED && state.state != RunState::IDLE) {
         before.reset();
         continue;
@@ -50,19 +51,15 @@ idl::channel::ChannelState run_line(cluster::Client& client, std::uint16_t chann
       if (stands) end = state;
     }
     // After the states: the alarm that has ended the line comes before the state that shows its end.
-    idl::service::Alarm a;
-    while (alarms.take(a))
-      if (a.active && a.severity >= idl::service::Severity::ERROR &&
-          a.source == machine::service::channel.name && a.part == channel)
-        alarm = std::to_string(a.number) + ": " + a.text;
-    if (end && !alarm.empty()) throw std::runtime_error("alarm " + alarm);
+    const auto& error = alarms.error();
+    if (end && !error.empty()) throw std::runtime_error(error);
     if (end && end->state == RunState::INTERRUPTED)
       throw std::runtime_error("the line was interrupted: see 'trunnion alarms', then reset");
     if (end) return *std::move(end);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   throw std::runtime_error("the line did not finish within " + std::to_string(static_cast<int>(timeout)) +
-                           " s");
+                           " s" + (detail.empty() ? "" : ": " + detail));
 }
 
 struct Line {

@@ -56,9 +56,14 @@ bus::Json row(std::uint32_t number, const machine::Parameters& parameters) {
   return json;
 }
 
-int get_parameters(const Common& common, const std::vector<std::string>& numbers) {
+machine::Parameters parameters_at(const Common& common, const StatePlace& place) {
+  if (place.given()) return saved_parameters(state_place(common, place));
   cluster::Client client(cluster::find_cluster(common.domain).run.domain);
-  const auto parameters = active(client);
+  return active(client);
+}
+
+int get_parameters(const Common& common, const StatePlace& place, const std::vector<std::string>& numbers) {
+  const auto parameters = parameters_at(common, place);
   bus::Json all = bus::Json::array();
   for (const auto& text : numbers) {
     const auto json = row(parse_number(text), parameters);
@@ -71,8 +76,7 @@ int get_parameters(const Common& common, const std::vector<std::string>& numbers
   return 0;
 }
 
-int set(const Common& common, const std::string& number, const std::string& value) {
-  cluster::Client client(cluster::find_cluster(common.domain).run.domain);
+idl::parameters::ParameterRequest set_request(const std::string& number, const std::string& value) {
   idl::parameters::Parameter parameter;
   parameter.number = parse_number(number);
   const auto* d = Catalogue::instance().find(parameter.number);
@@ -91,7 +95,12 @@ int set(const Common& common, const std::string& number, const std::string& valu
   idl::parameters::ParameterRequest request;
   request.operation = idl::parameters::Operation::SET;
   request.values = {parameter};
-  return send_parameters(common, client, std::move(request));
+  return request;
+}
+
+int set(const Common& common, const std::string& number, const std::string& value) {
+  cluster::Client client(cluster::find_cluster(common.domain).run.domain);
+  return send_parameters(common, client, set_request(number, value));
 }
 
 int list_parameters(const Common& common, const std::string& filter) {
@@ -128,7 +137,7 @@ int list_parameters(const Common& common, const std::string& filter) {
   return 0;
 }
 
-int save_parameters(const Common& common, const std::string& file) {
+int export_parameters(const Common& common, const std::string& file) {
   cluster::Client client(cluster::find_cluster(common.domain).run.domain);
   const auto text = machine::write_parameter_text(active(client).values);
   if (file == "-") {
@@ -153,10 +162,11 @@ void add_parameter_commands(CLI::App& app, Common& common) {
   param->require_subcommand(1);
   auto numbers = std::make_shared<std::vector<std::string>>();
   auto text = std::make_shared<std::pair<std::string, std::string>>();
-  add_command(*param, common, "get", "Print active values",
-              [&common, numbers] { return get_parameters(common, *numbers); })
-      ->add_option("number", *numbers, "Six digits")
-      ->required();
+  auto place = std::make_shared<StatePlace>();
+  auto* command = add_command(*param, common, "get", "Print active values",
+                              [&common, place, numbers] { return get_parameters(common, *place, *numbers); });
+  command->add_option("number", *numbers, "Six digits")->required();
+  add_place_options(*command, *place);
   auto take_right = std::make_shared<bool>(false);
   const auto operating = [&common, take_right](auto act) {
     return [&common, take_right, act] {
@@ -164,8 +174,14 @@ void add_parameter_commands(CLI::App& app, Common& common) {
       return act();
     };
   };
-  auto* command = add_command(*param, common, "set", "Change a value",
-                              operating([&common, text] { return set(common, text->first, text->second); }));
+  command = add_command(
+      *param, common, "set", "Change a value",
+      [&common, text, place,
+       change = operating([&common, text] { return set(common, text->first, text->second); })] {
+        if (!place->given()) return change();
+        return save_parameters(common, state_place(common, *place), set_request(text->first, text->second));
+      });
+  add_place_options(*command, *place);
   command->add_option("number", text->first, "Six digits")->required();
   command->add_option("value", text->second, "New value")->required();
   command->add_flag("--take-right", *take_right, cluster::take_right_help);
@@ -173,7 +189,7 @@ void add_parameter_commands(CLI::App& app, Common& common) {
     return list_parameters(common, text->first);
   })->add_option("filter", text->first, "Start of the number or part of the name");
   add_command(*param, common, "export", "Write the active values as YAML",
-              [&common, text] { return save_parameters(common, text->first); })
+              [&common, text] { return export_parameters(common, text->first); })
       ->add_option("file", text->first, "File, - for standard output")
       ->required();
   command = add_command(*param, common, "import", "Set every value of a YAML file, all or none",

@@ -8,12 +8,26 @@
 
 #include "bus/json.hpp"
 #include "cluster/cluster.hpp"
+#include "machine/roles.hpp"
 
 namespace trunnion::cli {
 namespace {
 
 // Of ParameterRequest in idl/parameters.idl.
 constexpr std::size_t most_values = 4096, most_author = 64;
+
+int print_reply(const Common& common, const idl::parameters::ParameterReply& reply, const std::string& done) {
+  if (common.json)
+    std::cout
+        << bus::Json{{"accepted", true}, {"revision", reply.revision}, {"pending", reply.pending}}.dump()
+        << "\n";
+  else
+    std::printf("%s%s\n", done.c_str(),
+                reply.pending > 0
+                    ? (", " + std::to_string(reply.pending) + " waiting for reset or restart").c_str()
+                    : "");
+  return 0;
+}
 
 }  // namespace
 
@@ -26,17 +40,15 @@ int send_parameters(const Common& common, cluster::Client& client, idl::paramete
                     const std::string& suffix, bool silent) {
   request.who = user_name().substr(0, most_author - suffix.size()) + suffix;
   const auto reply = client.parameter(std::move(request));
-  if (silent) return 0;
-  if (common.json)
-    std::cout
-        << bus::Json{{"accepted", true}, {"revision", reply.revision}, {"pending", reply.pending}}.dump()
-        << "\n";
-  else
-    std::printf("accepted, active revision %llu%s\n", static_cast<unsigned long long>(reply.revision),
-                reply.pending > 0
-                    ? (", " + std::to_string(reply.pending) + " waiting for reset or restart").c_str()
-                    : "");
-  return 0;
+  return silent ? 0
+                : print_reply(common, reply, "accepted, active revision " + std::to_string(reply.revision));
+}
+
+int save_parameters(const Common& common, const StatePlace& place,
+                    idl::parameters::ParameterRequest request) {
+  request.who = user_name().substr(0, most_author);
+  request.role = machine::role::builder;
+  return print_reply(common, change_saved_parameters(place, request), "saved, active from the next start on");
 }
 
 int import_parameters(const Common& common, const std::map<std::uint32_t, machine::ParameterValue>& values,

@@ -19,7 +19,7 @@ PlcSession::PlcSession(const Common& common)
 
 OnlineReply PlcSession::call(OnlineRequest request) {
   auto reply = requests_.call(std::move(request), answer_time);
-  if (!reply) throw std::runtime_error("the PLC has not answered within 10 s");
+  if (!reply) throw std::runtime_error(service::silence("the PLC", answer_time, requests_.connected()));
   if (!reply->accepted) throw std::runtime_error(reply->reason);
   return *std::move(reply);
 }

@@ -81,7 +81,8 @@ int export_csv(const std::string& file, const std::string& topic, const std::str
   const auto recording = verification::load_recording(file, {handle});
   if (recording.messages.empty())
     throw std::runtime_error(file + ": no message of " + handle +
-                             (recording.foreign.empty() ? "" : " of this program's contract"));
+                             (recording.foreign.empty() ? "" : " of this program's contract") +
+                             (recording.complete ? "" : "; " + recording.problem));
   if (output.empty()) {
     verification::write_csv(recording, *bus::find_topic(handle), std::cout);
   } else {

@@ -47,6 +47,7 @@ int run_replay(const Common& common, const ReplayArguments& arguments) {
   const auto recording = verification::load_recording(arguments.file, topics);
   for (const auto& topic : recording.foreign)
     std::cerr << arguments.file << ": warning: " << topic << " is of another contract and was left out\n";
+  if (!recording.complete) std::cerr << arguments.file << ": warning: " << recording.problem << "\n";
   const auto due = verification::schedule(recording, topics, arguments.rate);
   if (due.empty()) throw std::runtime_error(arguments.file + ": nothing to replay");
 

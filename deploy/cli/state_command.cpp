@@ -12,10 +12,11 @@
 #include "cluster/cluster.hpp"
 #include "cluster/cluster_locks.hpp"
 #include "commands.hpp"
-#include "machine/machine.hpp"
 #include "machine_state/backup.hpp"
+#include "machine_state/machine_directory.hpp"
 #include "machine_state/state_check.hpp"
 #include "service/node.hpp"
+#include "state_place.hpp"
 #include "storage/file.hpp"
 #include "trunnion/version.hpp"
 
@@ -24,38 +25,13 @@ namespace fs = std::filesystem;
 using bus::Json;
 namespace {
 
-struct Place {
-  std::string machine, state;
-};
-
-void add_place_options(CLI::App& command, Place& place) {
-  command.add_option("--machine", place.machine, "Machine whose default state directory it is");
-  command.add_option("--state", place.state, "State directory (default: that of the running cluster)");
-}
-
-// Name of the machine and its state directory.
-Place place_of(const Common& common, Place place) {
-  if (!place.machine.empty())
-    place.machine = machine::load_machine(cluster::find_machine(place.machine)).name;
-  if (!place.state.empty()) {
-    place.state = fs::absolute(place.state).lexically_normal().string();
-    return place;
-  }
-  if (!place.machine.empty()) {
-    place.state = cluster::default_state_directory(place.machine);
-    return place;
-  }
-  const auto cluster = cluster::find_cluster(common.domain);
-  return {cluster.machine, cluster.state_directory};
-}
-
 const char* text_of(storage::KeptState state) {
   constexpr const char* names[] = {"absent", "good", "previous", "unusable"};
   return names[static_cast<int>(state)];
 }
 
-int check_state(const Common& common, const Place& where) {
-  const auto place = place_of(common, where);
+int check_state(const Common& common, const StatePlace& where) {
+  const auto place = state_place(common, where);
   const auto reports = machine_state::check_state(place.state);
   bool good = true;
   Json files = Json::array();
@@ -78,8 +54,15 @@ int check_state(const Common& common, const Place& where) {
   return good ? 0 : 1;
 }
 
-int accept(const Common& common, const Place& where, const std::vector<std::string>& files) {
-  const auto place = place_of(common, where);
+// The files of a cluster that runs are its own.
+StatePlace unused_place(const Common& common, const StatePlace& where) {
+  if (!where.given())
+    throw std::runtime_error("say with --machine or --state which state directory; no cluster may use it");
+  return state_place(common, where);
+}
+
+int accept(const Common& common, const StatePlace& where, const std::vector<std::string>& files) {
+  const auto place = unused_place(common, where);
   const cluster::StateLock lock(place.state, cluster::make_identity(place.machine, 0, false), 0);
   for (const auto& file : files) machine_state::accept(place.state, file);
   if (common.json)
@@ -90,51 +73,100 @@ int accept(const Common& common, const Place& where, const std::vector<std::stri
   return 0;
 }
 
-int backup(const Common& common, const Place& where, const std::string& file) {
-  const auto place = place_of(common, where);
-  const auto state = machine_state::collect(place.state, place.machine, version, service::time_of_day());
+int backup(const Common& common, const StatePlace& where, const std::string& file) {
+  const auto place = state_place(common, where);
+  const auto& machine = known_machine(place);
+  auto state = machine_state::collect(place.state, place.machine, version, service::time_of_day());
+  state.configuration = machine_state::machine_files(machine);
   storage::replace_file(fs::absolute(file).string(), machine_state::write_backup(state));
   if (common.json)
-    std::cout << bus::text_of(Json{{"backup", file}, {"state", place.state}, {"files", state.files.size()}})
+    std::cout << bus::text_of(Json{{"backup", file},
+                                   {"state", place.state},
+                                   {"files", state.files.size()},
+                                   {"machine", machine},
+                                   {"machine_files", state.configuration.size()}})
               << "\n";
   else
-    std::printf("%s: %zu files of %s\n", file.c_str(), state.files.size(), place.state.c_str());
+    std::printf("%s: %zu files of %s, %zu of %s\n", file.c_str(), state.files.size(), place.state.c_str(),
+                state.configuration.size(), machine.c_str());
   return 0;
 }
 
-int restore(const Common& common, Place where, const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error(file + ": cannot be opened");
+struct Restore {
+  StatePlace where;
+  std::string file, configuration;
+};
+
+// Of the machine's directory, with those of the backup; nothing when the machine is not on this computer.
+std::optional<std::vector<std::string>> differing_here(const machine_state::Backup& backup,
+                                                       const StatePlace& place) {
+  if (place.directory.empty()) return std::nullopt;
+  return machine_state::differing_files(backup.configuration, machine_state::machine_files(place.directory));
+}
+
+void tell_of_configuration(const machine_state::Backup& backup, const StatePlace& place,
+                           const std::optional<std::vector<std::string>>& differing) {
+  if (backup.configuration.empty()) {
+    std::printf("The backup is of an older version and has no files of the machine's directory\n");
+  } else if (!differing) {
+    std::printf("The machine %s is not here: 'trunnion restore --configuration DIR' makes its directory\n",
+                backup.machine.c_str());
+  } else if (!differing->empty()) {
+    std::printf(
+        "%s is not as in the backup, and was not changed ('trunnion restore --configuration DIR' makes "
+        "a new directory):\n",
+        place.directory.c_str());
+    for (const auto& name : *differing) std::printf("  %s\n", name.c_str());
+  }
+}
+
+int restore(const Common& common, Restore options) {
+  std::ifstream in(options.file, std::ios::binary);
+  if (!in) throw std::runtime_error(options.file + ": cannot be opened");
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
-  const auto state = machine_state::read_backup(bytes);
-  if (where.state.empty() && where.machine.empty())
-    where.state = cluster::default_state_directory(state.machine);
-  const auto place = place_of(common, where);
+  const auto backup = machine_state::read_backup(bytes);
+  if (!options.where.given()) options.where.state = cluster::default_state_directory(backup.machine);
+  auto place = unused_place(common, options.where);
   std::optional<cluster::StateLock> lock;
   if (fs::exists(place.state))
-    lock.emplace(place.state, cluster::make_identity(state.machine, 0, false), 0);
+    lock.emplace(place.state, cluster::make_identity(backup.machine, 0, false), 0);
   else
     fs::create_directories(fs::path(place.state).parent_path());
-  const auto old = machine_state::restore(state, place.state);
-  if (common.json)
+  if (!options.configuration.empty()) {
+    if (backup.configuration.empty())
+      throw std::runtime_error(options.file +
+                               " is of an older version and has no files of the machine's directory");
+    machine_state::make_machine(backup.configuration, options.configuration);
+    place.directory = fs::absolute(options.configuration).lexically_normal().string();
+  }
+  const auto old = machine_state::restore(backup, place.state);
+  const auto differing = differing_here(backup, place);
+  if (common.json) {
     std::cout << bus::text_of(Json{{"state", place.state},
                                    {"before", old},
-                                   {"files", state.files.size()},
-                                   {"machine", state.machine},
-                                   {"version", state.version},
-                                   {"time", state.time}})
+                                   {"files", backup.files.size()},
+                                   {"machine", backup.machine},
+                                   {"machine_directory", place.directory},
+                                   {"machine_differs", differing.value_or(std::vector<std::string>{})},
+                                   {"version", backup.version},
+                                   {"time", backup.time}})
               << "\n";
+    return 0;
+  }
+  std::printf("%s has the state of %s of %s (version %s)%s\n", place.state.c_str(), backup.machine.c_str(),
+              backup.time.c_str(), backup.version.c_str(),
+              old.empty() ? "" : ("; what was there is in " + old).c_str());
+  if (!options.configuration.empty())
+    std::printf("%s has the machine: 'trunnion up %s'\n", place.directory.c_str(), place.directory.c_str());
   else
-    std::printf("%s has the state of %s of %s (version %s)%s\n", place.state.c_str(), state.machine.c_str(),
-                state.time.c_str(), state.version.c_str(),
-                old.empty() ? "" : ("; what was there is in " + old).c_str());
+    tell_of_configuration(backup, place, differing);
   return 0;
 }
 
 }  // namespace
 
 void add_state_commands(CLI::App& app, Common& common) {
-  auto place = std::make_shared<Place>();
+  auto place = std::make_shared<StatePlace>();
   auto file = std::make_shared<std::string>();
   auto files = std::make_shared<std::vector<std::string>>();
   auto* state = app.add_subcommand("state", "The files that survive a stop of the cluster");
@@ -153,17 +185,24 @@ void add_state_commands(CLI::App& app, Common& common) {
   add_place_options(*command, *place);
   command->add_option("file", *files, "Below the state directory, for example tools.yaml or programs/part.nc")
       ->required();
-  command = add_command(app, common, "backup", "Write the whole state of a machine into one file (tar)",
+  command = add_command(app, common, "backup",
+                        "Write the whole state of a machine and its directory into one file (tar), without "
+                        "recordings, keys and certificates",
                         [&common, place, file] { return backup(common, *place, *file); });
   add_place_options(*command, *place);
   command->add_option("file", *file, "The file")->required();
+  auto options = std::make_shared<Restore>();
   command =
       add_command(app, common, "restore",
                   "Put a backup in the place of the state directory, after it was checked; not while the "
                   "cluster runs. What was there is kept beside it",
-                  [&common, place, file] { return restore(common, *place, *file); });
-  add_place_options(*command, *place);
-  command->add_option("file", *file, "The backup")->required();
+                  [&common, options] { return restore(common, *options); });
+  add_place_options(*command, options->where);
+  command->add_option(
+      "--configuration", options->configuration,
+      "New directory for the machine itself (machine.yaml, parameters, tools, PLC, programs), as "
+      "on a new computer");
+  command->add_option("file", options->file, "The backup")->required();
 }
 
 }  // namespace trunnion::cli

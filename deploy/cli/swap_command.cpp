@@ -30,9 +30,7 @@ int swap(const Common& common, idl::service::SwapRequest request, double timeout
                                                                                     topics::swap_reply);
   cluster::put_ticket(cluster.run.path(), request);
   const auto reply = client.call(request, timeout);
-  if (!reply)
-    throw std::runtime_error("the launcher gave no answer within " +
-                             std::to_string(static_cast<int>(timeout)) + " s");
+  if (!reply) throw std::runtime_error(service::silence("the launcher", timeout, client.connected()));
   if (common.json) {
     std::cout << bus::text_of(bus::to_json(*reply)) << "\n";
     return reply->accepted ? 0 : 1;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // topic list|echo|hz, record
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -40,6 +43,12 @@ int list_topics(const Common& common) {
   return 0;
 }
 
+// A machine at rest sends nothing, so that no write would tell that the reader of a pipe has gone.
+bool output_is_read() {
+  pollfd output{STDOUT_FILENO, 0, 0};
+  return poll(&output, 1, 0) < 0 || (output.revents & POLLERR) == 0;
+}
+
 int echo(const Common& common, const std::string& name, int count, double timeout) {
   const auto& topic = find_topic(name);
   bus::Bus bus(bus::Vendor::cyclonedds, cluster::find_cluster(common.domain).network);
@@ -50,6 +59,7 @@ int echo(const Common& common, const std::string& name, int count, double timeou
   int printed = 0;
   while (count == 0 || printed < count) {
     bus.signal().wait(0.1);
+    if (!output_is_read()) return raise(SIGPIPE);
     while ((count == 0 || printed < count) && reader->take(bytes, info)) {
       std::cout << bus::text_of(topic.to_json(bytes), common.json ? -1 : 2) << std::endl;
       heard = service::monotonic_seconds();
@@ -114,7 +124,18 @@ constexpr std::array recorder_options{
     RecorderOption{"--memory", "MiB the flight recorder may keep (default: 256)"}};
 using RecorderValues = std::array<std::string, recorder_options.size()>;
 
-int record(const Common& common, const std::string& file, const RecorderValues& values) {
+// Parts and what a flight recorder saves get numbers that no file has.
+bool is_numbered(const RecorderValues& values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (const std::string option : {"--part-size", "--part-time", "--last"})
+      if (recorder_options[i].name == option && !values[i].empty()) return true;
+  return false;
+}
+
+int record(const Common& common, const std::string& file, bool force, const RecorderValues& values) {
+  // A pipe or a device is not replaced.
+  if (!force && !is_numbered(values) && std::filesystem::is_regular_file(file))
+    throw std::runtime_error(file + ": it exists already: choose another name, or replace it with --force");
   const auto cluster = cluster::find_cluster(common.domain);
   std::vector<std::string> args{cluster::binary_directory() + "/trunnion-recorder",
                                 "--output",
@@ -153,9 +174,11 @@ void add_topic_commands(CLI::App& app, Common& common) {
   command->add_option("topic", *name, "Name or handle")->required();
   command->add_option("--seconds", *window, "How long to count");
   auto values = std::make_shared<RecorderValues>();
+  auto force = std::make_shared<bool>(false);
   command = add_command(app, common, "record", "Record the cluster into an MCAP file until Ctrl-C",
-                        [&common, name, values] { return record(common, *name, *values); });
+                        [&common, name, force, values] { return record(common, *name, *force, *values); });
   command->add_option("file", *name, "File to write")->required();
+  command->add_flag("--force", *force, "Replace the file when it exists");
   for (std::size_t i = 0; i < recorder_options.size(); ++i)
     command->add_option(recorder_options[i].name, (*values)[i], recorder_options[i].help);
 }

@@ -123,7 +123,7 @@ class Swapper {
     cluster::put_ticket(run_directory_, request);
     if (const auto reply = client_.call(request, timeout_)) return *reply;
     SwapReply none;
-    none.reason = "the launcher gave no answer within " + text::quantity(timeout_, "s", 3);
+    none.reason = service::silence("the launcher", timeout_, client_.connected());
     return none;
   }
 

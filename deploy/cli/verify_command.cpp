@@ -23,6 +23,7 @@ int run_verification(const Common& common, verification::VerifyOptions options,
     auto json = verification::json_of(result.difference);
     json["equal"] = result.equal();
     json["problem"] = result.problem;
+    json["cut_off"] = result.cut_off;
     json["inputs"] = result.inputs;
     json["outputs"] = result.outputs;
     json["unrecorded"] = result.unrecorded;
@@ -39,6 +40,7 @@ int run_verification(const Common& common, verification::VerifyOptions options,
   }
   std::cout << verification::text_of(result.difference, "recorded", "written now");
   if (!result.problem.empty()) std::cout << "problem: " << result.problem << "\n";
+  if (!result.cut_off.empty()) std::printf("verified as far as it goes: %s\n", result.cut_off.c_str());
   std::printf("%s: %s; %zu messages in, %zu out", options.service.c_str(),
               result.equal() ? "as recorded" : "NOT as recorded", result.inputs, result.outputs);
   if (result.samples > 0)

@@ -20,7 +20,9 @@ struct LaunchOptions {
   cluster::RunDirectory run;
   std::string host;  ///< which of the machine's hosts this is; empty when it has none
   bus::NetworkSettings network;
+  int session = 0;                   ///< in which the command was called that has started this
   std::optional<int> owner;          ///< process with which the cluster ends
+  bool keep_faulty = false;          ///< it goes on after a faulty start, to be corrected
   cluster::Executables executables;  ///< in the place of those beside the launcher
 
   /// Computers of a network can join without security.

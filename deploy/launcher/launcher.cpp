@@ -18,6 +18,7 @@
 #include "cluster/cluster.hpp"
 #include "cluster/instances.hpp"
 #include "machine/alarm_constants.hpp"
+#include "machine/gateway_loss.hpp"
 #include "machine/service_constants.hpp"
 #include "service/node.hpp"
 
@@ -35,6 +36,12 @@ std::uint32_t instance_on(const LaunchOptions& options) {
       std::find_if(hosts.begin(), hosts.end(), [&](const auto& host) { return host.name == options.host; });
   return cluster::launcher_instance +
          static_cast<std::uint32_t>(here == hosts.end() ? 0 : here - hosts.begin());
+}
+
+std::vector<std::string> hosts_of(const LaunchOptions& options) {
+  std::vector<std::string> names;
+  for (const auto& host : options.machine.hosts) names.push_back(host.name);
+  return names;
 }
 
 // The directories of the locks.
@@ -55,6 +62,7 @@ void write_info(const LaunchOptions& options) {
   cluster.host = options.host;
   cluster.network = options.network;
   cluster.open = options.open();
+  cluster.session = options.session;
   cluster::write_info(cluster);
 }
 
@@ -83,6 +91,7 @@ Launcher::Launcher(LaunchOptions options)
       bus_(bus::Vendor::cyclonedds, options_.network),
       alarms_(bus_, instance_on(options_), "launcher"),
       presence_(bus_, identity_),
+      silent_hosts_(hosts_of(options_), options_.host),
       states_(bus_.reader(topics::service_state)),
       announcements_(bus_.reader(topics::announcement)),
       resets_(bus_.reader(topics::alarm_reset)),
@@ -94,6 +103,9 @@ Launcher::Launcher(LaunchOptions options)
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
+  runs_on_without_page_ = machine::load_gateway_loss(options_.machine.directory).has_value();
+  // In this order: a directory with the second file and without the first is one that a kill has left.
+  std::ofstream(options_.run.pid_file()) << getpid() << "\n";
   write_info(options_);
   write_boot(options_.state_directory + "/cluster.boot");
   for (const auto& entry : options_.machine.services) {
@@ -114,6 +126,12 @@ Launcher::~Launcher() { stop_all(); }
 
 bool Launcher::must_stop() const { return stop_requested != 0 || owner_.ended(); }
 
+Loss Launcher::loss_of(const ServiceProcess& process) const {
+  if (has_live_twin(process)) return Loss::redundant;
+  return runs_on_without_page_ && process.entry.service == machine::service::gateway.name ? Loss::shown
+                                                                                          : Loss::holds;
+}
+
 bool Launcher::has_live_twin(const ServiceProcess& process) const {
   return std::any_of(processes_.begin(), processes_.end(), [&](const ServiceProcess& other) {
     return &other != &process && other.entry.service == process.entry.service &&
@@ -124,7 +142,7 @@ bool Launcher::has_live_twin(const ServiceProcess& process) const {
 
 void Launcher::lose(ServiceProcess& process, const std::string& how) {
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
-  process.fault.lose("Service " + process.name() + " " + how, has_live_twin(process));
+  process.fault.lose("Service " + process.name() + " " + how, loss_of(process));
 }
 
 // Before the first readiness a process that ended by itself is a failed start, reported in `failure`; one
@@ -138,18 +156,18 @@ bool Launcher::collect_ended(std::string& failure) {
     if (process.retiring) continue;
     alarms_of_services_.end(process.entry.instance);
     const auto& e = process.entry;
-    const std::string how = WIFSIGNALED(*status)
-                                ? "was ended by signal " + std::to_string(WTERMSIG(*status))
-                                : "ended with status " + std::to_string(WEXITSTATUS(*status));
+    const auto line = cluster::last_line(process.log);
+    std::string how = WIFSIGNALED(*status) ? "was ended by signal " + std::to_string(WTERMSIG(*status))
+                                           : "ended with status " + std::to_string(WEXITSTATUS(*status));
     if (!was_ready_ && WIFSIGNALED(*status)) {
       ++process.restarts;
       continue;
     }
     if (!was_ready_) {
-      const auto line = cluster::last_line(process.log);
       failure = line.empty() ? e.service + " " + how : line;
       return false;
     }
+    if (WIFEXITED(*status) && WEXITSTATUS(*status) != 0 && !line.empty()) how += ", " + line;
     lose(process, how);
     if (process.policy.gave_up())
       process.fault.give_up("Service " + process.name() + " does not stay up: it ended " +
@@ -210,17 +228,14 @@ void Launcher::watch_local(ServiceProcess& process, double now) {
   }
 }
 
-// Silence is all that can be seen of another host. Its own launcher reports a process that died; the first
-// host's reports the others' silence, and they report the first host's.
+// Silence is all that can be seen of another host. Its own launcher reports a process that died.
 void Launcher::watch_remote(ServiceProcess& process, double now) {
   if (process.pid == 0) return;
   if (process.policy.pulse(now) == Pulse::beating) return;
   process.pid = 0;
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   process.detail = "host " + process.entry.host + " is silent";
-  const auto& first = options_.machine.hosts.front().name;
-  if (was_ready_ && (is_first_host() || process.entry.host == first))
-    lose(process, "on host " + process.entry.host + " is silent");
+  if (was_ready_) lose(process, "on host " + process.entry.host + " is silent");
 }
 
 void Launcher::listen() {
@@ -264,12 +279,22 @@ void Launcher::watch() {
   update_alarms(now);
 }
 
+void Launcher::add_causes_of_services(double now, std::vector<AlarmCause>& causes) {
+  std::vector<RemoteService> remote;
+  for (const auto& process : processes_)
+    if (process.local)
+      process.fault.add_causes(process.entry.instance, causes);
+    else
+      remote.push_back({process.entry.host, process.name(), process.entry.instance, &process.fault});
+  silent_hosts_.add_causes(remote, now, causes);
+}
+
 // Alarms about processes belong to what causes them and can be reset when it is gone.
 void Launcher::update_alarms(double now) {
   bus_.backend().discover(writers_);
   foreign_.discovered(writers_);
   std::vector<AlarmCause> causes;
-  for (const auto& process : processes_) process.fault.add_causes(process.entry.instance, causes);
+  add_causes_of_services(now, causes);
   foreign_.add_causes(now, causes);
   if (const auto other = presence_.other())
     causes.push_back({&alarm::domain_shared, 0,
@@ -338,13 +363,32 @@ std::string Launcher::listen_for_others() {
   return "";
 }
 
-int Launcher::run(void (*report)(const std::string&)) {
+// Nothing is left to wait for, and somebody has to correct what keeps a process from taking part.
+bool Launcher::faulty() const {
+  using idl::service::Lifecycle;
+  return std::all_of(processes_.begin(), processes_.end(),
+                     [](const ServiceProcess& p) {
+                       return p.pid != 0 &&
+                              (p.lifecycle == Lifecycle::ACTIVE || p.lifecycle == Lifecycle::FAULT);
+                     }) &&
+         !all_ready();
+}
+
+std::string Launcher::not_ready() const {
+  std::string text;
+  for (const auto& p : processes_)
+    if (p.local && p.lifecycle != idl::service::Lifecycle::ACTIVE)
+      text += (text.empty() ? "not ready: " : "; ") + p.entry.service +
+              (p.detail.empty() ? "" : " (" + p.detail + ")");
+  return text;
+}
+
+int Launcher::run(void (*report)(Start, const std::string& why)) {
   if (const auto refusal = listen_for_others(); !refusal.empty()) {
-    report(refusal);
+    report(Start::failed, refusal);
     options_.run.remove();
     return 1;
   }
-  std::ofstream(options_.run.pid_file()) << getpid() << "\n";
   const double began = time_.advance(service::monotonic_seconds());
   for (auto& process : processes_)
     if (process.local) process.start(options_, false, began);
@@ -362,26 +406,23 @@ int Launcher::run(void (*report)(const std::string&)) {
     serve_swaps();
     publish();
     notifier_.alive(service::monotonic_seconds());
-    if (!was_ready_ && started()) {
+    if (!was_ready_ && (started() || (options_.keep_faulty && faulty()))) {
       was_ready_ = true;
-      report("");
+      report(started() ? Start::ready : Start::faulty, not_ready());
       notifier_.ready();
     }
     const auto active = std::count_if(processes_.begin(), processes_.end(), [](const auto& p) {
       return p.local && p.lifecycle == idl::service::Lifecycle::ACTIVE;
     });
     if (active > most_active) most_active = active, progressed = time_.now();
-    if (!was_ready_ && time_.now() - progressed > start_timeout) {
-      for (const auto& p : processes_)
-        if (p.local && p.lifecycle != idl::service::Lifecycle::ACTIVE)
-          failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service +
-                     (p.detail.empty() ? "" : " (" + p.detail + ")");
+    if (!was_ready_ && (faulty() || time_.now() - progressed > start_timeout)) {
+      failure = not_ready();
       break;
     }
   }
   notifier_.stopping();
   stop_all();
-  if (!failure.empty()) report(failure);
+  if (!failure.empty()) report(Start::failed, failure);
   options_.run.remove();
   return failure.empty() ? 0 : 1;
 }

@@ -20,24 +20,30 @@
 #include "service/request.hpp"
 #include "service/running_time.hpp"
 #include "service_process.hpp"
+#include "silent_hosts.hpp"
 #include "swap.hpp"
 
 namespace trunnion::launcher {
 
-/// Runs in a process of its own. `report` is called once: with "" when the cluster is ready, with one line
-/// when it could not be started. Returns the exit status.
+/// How a start has ended. Faulty: every process runs, and one cannot take part until what it names is
+/// corrected.
+enum class Start { ready, faulty, failed };
+
+/// Runs in a process of its own. `report` is called once, with one line of what is wrong unless the cluster
+/// is ready. Returns the exit status.
 class Launcher {
  public:
   /// Throws std::runtime_error with one line when another cluster uses the state directory or the domain.
   explicit Launcher(LaunchOptions options);
   ~Launcher();
-  int run(void (*report)(const std::string&));
+  int run(void (*report)(Start, const std::string& why));
 
  private:
   bool must_stop() const;
   void stop_all();
   std::string listen_for_others();
   void update_alarms(double now);
+  void add_causes_of_services(double now, std::vector<AlarmCause>& causes);
   std::string refused(const idl::service::SwapRequest& request) const;
   void report_refused(const idl::service::SwapRequest& request, const std::string& why);
   bool collect_ended(std::string& failure);
@@ -52,8 +58,11 @@ class Launcher {
   bool all_ready() const;
   bool is_first_host() const;
   bool started() const;
+  bool faulty() const;
+  std::string not_ready() const;
   void publish();
   bool has_live_twin(const ServiceProcess& process) const;
+  Loss loss_of(const ServiceProcess& process) const;
   void serve_swaps();
   ServiceProcess* whom_to_swap(const idl::service::SwapRequest& request);
 
@@ -67,6 +76,7 @@ class Launcher {
   Presence presence_;
   ForeignServices foreign_;
   AlarmCauses causes_;
+  SilentHosts silent_hosts_;
   std::vector<bus::DiscoveredWriter> writers_;
   bus::Reader<idl::service::ServiceState> states_;
   bus::Reader<idl::service::Announcement> announcements_;
@@ -83,6 +93,7 @@ class Launcher {
   std::uint64_t refusals_ = 0;    // since then
   std::uint32_t generation_ = 0;  // swaps that were started on this host
   bool ready_ = false, was_ready_ = false;
+  bool runs_on_without_page_ = false;  // machine.yaml names inputs that hold and stop nevertheless
   double last_published_ = 0;
   service::RunningTime time_;  ///< by which silence is measured, and everything of restarts and swaps
 };

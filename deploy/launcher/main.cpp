@@ -13,19 +13,23 @@
 
 namespace {
 
+using trunnion::launcher::Start;
+
 int report_pipe = -1;
 
 // Who started us waits for one line: that the cluster is ready, or why it is not.
-void report(const std::string& text) {
+void report(Start start, const std::string& why) {
   if (report_pipe < 0) {
-    if (text.empty())
+    if (start == Start::ready)
       std::printf("ready\n");
     else
-      std::fprintf(stderr, "%s\n", text.c_str());
+      std::fprintf(stderr, "%s\n", why.c_str());
     std::fflush(stdout);
     return;
   }
-  const std::string message = text.empty() ? "ready\n" : "error " + text + "\n";
+  const std::string message = start == Start::ready    ? "ready\n"
+                              : start == Start::faulty ? "faulty " + why + "\n"
+                                                       : "error " + why + "\n";
   if (write(report_pipe, message.data(), message.size()) < 0) return;
   close(report_pipe);
   report_pipe = -1;
@@ -51,6 +55,9 @@ int main(int argc, char** argv) {
   app.add_option("--exec", executables, "SERVICE=PATH: what to start in the place of its executable");
   std::int64_t clock_offset = 0;
   app.add_option("--clock-offset", clock_offset, "ns from the monotonic clock to the time in messages");
+  app.add_flag("--keep-faulty", options.keep_faulty,
+               "Continue when a service runs and cannot take part, so that it can be corrected");
+  app.add_option("--session", options.session, "Session that may stop it without naming it");
   app.add_option("--owner", options.owner, "Process id: stop when this process ends");
   bool one_host = false;
   app.add_flag("--one-host", one_host, "Start everything here, whatever hosts machine.yaml names");
@@ -71,7 +78,7 @@ int main(int argc, char** argv) {
                     [](const auto& s) { return s.service == machine::service::gateway.name; });
     return launcher::Launcher(std::move(options)).run(report);
   } catch (const std::exception& e) {
-    report(e.what());
+    report(Start::failed, e.what());
     return 1;
   }
 }

@@ -5,9 +5,9 @@
 
 namespace trunnion::launcher {
 
-void ServiceFault::lose(std::string text, bool redundant) {
-  redundant_ = redundant;
-  if (redundant) redundancy_ = text;
+void ServiceFault::lose(std::string text, Loss loss) {
+  loss_ = loss;
+  if (loss == Loss::redundant) redundancy_ = text;
   lost_ = std::move(text);
 }
 
@@ -21,7 +21,11 @@ void ServiceFault::in_step() {
 }
 
 void ServiceFault::add_causes(std::uint32_t instance, std::vector<AlarmCause>& causes) const {
-  if (lost() && !redundant_) causes.push_back({&alarm::service_lost, instance, lost_});
+  if (lost() && loss_ == Loss::shown) {
+    causes.push_back({&alarm::page_lost, instance, gave_up_.empty() ? lost_ : gave_up_});
+    return;
+  }
+  if (lost() && loss_ == Loss::holds) causes.push_back({&alarm::service_lost, instance, lost_});
   if (!redundancy_.empty()) causes.push_back({&alarm::redundancy_lost, instance, redundancy_});
   if (!gave_up_.empty()) causes.push_back({&alarm::service_not_staying, instance, gave_up_});
 }

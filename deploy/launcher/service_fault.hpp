@@ -20,11 +20,18 @@ struct AlarmCause {
   std::string text;
 };
 
+/// What the loss of a process does.
+enum class Loss : std::uint8_t {
+  holds,      ///< the channels
+  redundant,  ///< nothing: another replica of its stage runs
+  shown,      ///< a warning: the machine runs on without it
+};
+
 /// Of the process that has a place in the cluster. A process that takes the place over begins with none.
 class ServiceFault {
  public:
-  /// It has ended or is silent; `redundant`: another replica of its stage runs.
-  void lose(std::string text, bool redundant);
+  /// It has ended or is silent.
+  void lose(std::string text, Loss loss);
   /// It is not started again soon.
   void give_up(std::string text) { gave_up_ = std::move(text); }
   /// It is active again.
@@ -32,6 +39,8 @@ class ServiceFault {
   /// It takes part as a replica again.
   void in_step();
   bool lost() const { return !lost_.empty(); }
+  /// Its loss, if it is lost, holds the channels.
+  bool holds() const { return loss_ == Loss::holds; }
 
   /// Adds what is wrong with it.
   void add_causes(std::uint32_t instance, std::vector<AlarmCause>& causes) const;
@@ -39,7 +48,7 @@ class ServiceFault {
  private:
   std::string lost_, gave_up_;
   std::string redundancy_;  ///< stays until it is in step
-  bool redundant_ = false;
+  Loss loss_ = Loss::holds;
 };
 
 /// Which alarms a change of the causes raises and which it ends.

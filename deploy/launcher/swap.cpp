@@ -73,7 +73,7 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
       announced_(announced),
       request_(request),
       comparison_(comparison_of(old.entry.service)),
-      feedback_(bus.reader(topics::feedback_frame)),
+      feedback_(bus, topics::feedback_frame),
       channels_(bus.reader(topics::channel_state)),
       alarms_(bus),
       promotions_(bus.writer(topics::promotion)),
@@ -82,10 +82,10 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
       sequence_(comparison_, request.cycles, began_) {
   if (comparison_ == Comparison::frames) {
     auto topic = output_of(old.entry.service);
-    originals_.emplace(bus.reader(topic));
+    originals_.emplace(bus, topic);
     standby_topic_ = stream::standby_name(topic.name);
     topic.name = standby_topic_.c_str();
-    shadows_.emplace(bus.reader(topic));
+    shadows_.emplace(bus, topic);
   }
   if (access(fresh_.executable.c_str(), X_OK) == 0) fresh_.start(options_, true, now);
 }

@@ -10,6 +10,7 @@
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
 #include "service_process.hpp"
+#include "stream/frame_reader.hpp"
 #include "stream/shadow_comparison.hpp"
 #include "swap_sequence.hpp"
 
@@ -58,8 +59,8 @@ class Swap {
   idl::service::SwapRequest request_;
   Comparison comparison_;
   std::string standby_topic_;
-  std::optional<bus::Reader<idl::stream::AxisFrame>> originals_, shadows_;
-  bus::Reader<idl::stream::FeedbackFrame> feedback_;
+  std::optional<stream::FrameReader<idl::stream::AxisFrame>> originals_, shadows_;
+  stream::FrameReader<idl::stream::FeedbackFrame> feedback_;
   bus::Reader<idl::channel::ChannelState> channels_;
   AlarmsOfServices alarms_;
   bus::Writer<idl::service::Promotion> promotions_;

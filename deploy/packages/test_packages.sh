@@ -52,14 +52,22 @@ as_user trunnion down --domain "$domain"
 as_user bash -c "cd /tmp/home && trunnion run ac-table nas979_cone --report /tmp/home/report" | tail -n 3
 [ -f "$root/tmp/home/report/path.svg" ] || { echo "the run has left no report"; exit 1; }
 
-if [ -e "$root/usr/lib/trunnion/bin/trunnion-drive-hal" ]; then
+if compgen -G "$root/tmp/packages/trunnion-hal_*.deb" > /dev/null; then
   echo "== a machine behind HAL"
-  # HAL's shared memory has one key for each computer: an IPC namespace of its own keeps other machines apart.
+  # HAL's shared memory has one key for each computer: an IPC namespace of its own keeps other machines apart. What does not
+  # come up is missing: the drive starts the session, which loads HAL, whose pins of the PLC connect.
   in_root unshare --ipc setpriv --reuid=65534 --regid=65534 --clear-groups bash -c "
-    trunnion up hal-sim-xyz --domain $domain --port $((18000 + domain)) && trunnion status --domain $domain &&
+    trunnion up hal-sim-xyz --domain $domain --port $((18000 + domain)) && timeout 60 bash -c '
+      until halcmd getp io.connected | grep -q TRUE && halcmd gets drives-on | grep -q TRUE; do sleep 0.1; done' &&
     trunnion down --domain $domain" > "$root/tmp/hal.log" 2>&1 || { cat "$root/tmp/hal.log"; exit 1; }
-  grep -q 'trunnion-drive-hal\|drive .*runs\|drive' "$root/tmp/hal.log"
 fi
+
+echo "== every program of the packages"
+for program in "$root"/usr/lib/trunnion/bin/*; do
+  program=${program#"$root"}
+  usage=$(as_user "$program" --help 2>&1) || true
+  grep -qi "${program##*/}" <<< "$usage" || { echo "$program does not start: $usage"; exit 1; }
+done
 
 echo "== the unit"
 verified=$(in_root systemd-analyze verify /usr/lib/systemd/system/trunnion@.service 2>&1 | grep -i trunnion || true)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/resource.h>
+
 #include <boost/asio/ip/tcp.hpp>
 #include <cstdint>
 #include <stdexcept>
@@ -23,6 +25,14 @@ inline void listen_on(boost::asio::ip::tcp::acceptor& acceptor, const std::strin
   if (error)
     throw std::runtime_error("cannot listen on " + address + ":" + std::to_string(port) + ": " +
                              error.message());
+}
+
+/// Whether a connection has one of the last `reserve` file descriptors that the process may have: the system
+/// gives the lowest that is free.
+inline bool is_of_reserve(boost::asio::ip::tcp::socket& socket, rlim_t reserve) {
+  rlimit files{};
+  return getrlimit(RLIMIT_NOFILE, &files) == 0 &&
+         static_cast<rlim_t>(socket.native_handle()) + reserve >= files.rlim_cur;
 }
 
 }  // namespace trunnion::gateway

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "http/server.hpp"
 
+#include <pthread.h>
+
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <stdexcept>
@@ -16,6 +18,12 @@ namespace trunnion::gateway {
 namespace net = boost::asio;
 using tcp = net::ip::tcp;
 
+namespace {
+
+constexpr rlim_t descriptors_for_others = 8;  // files of the page and the users, the bus
+
+}  // namespace
+
 struct HttpServer::Inside {
   Inside(const std::string& address, std::uint16_t port, Api& served, Site own,
          const std::string& command_socket, TlsCertificate* own_certificate)
@@ -29,7 +37,10 @@ struct HttpServer::Inside {
     listen_on(acceptor, address, port);
     hub.start();
     accept();
-    thread = std::thread([this] { context.run(); });
+    thread = std::thread([this] {
+      pthread_setname_np(pthread_self(), "gateway-http");
+      context.run();
+    });
   }
 
   void accept() {
@@ -37,7 +48,8 @@ struct HttpServer::Inside {
       if (error == net::error::operation_aborted) return;
       if (error) {
         // Out of file descriptors, most likely: trying again at once would only burn the processor.
-        pause.expires_after(std::chrono::milliseconds(100));
+        make_room(true);
+        pause.expires_after(std::chrono::milliseconds(5));
         pause.async_wait([this](const boost::system::error_code& stopped) {
           if (!stopped) accept();
         });
@@ -48,7 +60,7 @@ struct HttpServer::Inside {
   }
 
   void admit(tcp::socket socket) {
-    if (!make_room()) {
+    if (!make_room(is_of_reserve(socket, descriptors_for_others))) {
       // What has arrived is read meanwhile.
       pause.expires_after(std::chrono::milliseconds(1));
       pause.async_wait([this, socket = std::move(socket)](const boost::system::error_code& stopped) mutable {
@@ -65,8 +77,8 @@ struct HttpServer::Inside {
     accept();
   }
 
-  /// Whether there is some now.
-  bool make_room() {
+  /// Whether there is some now. When file descriptors are short, a stream may give way, too.
+  bool make_room(bool is_short) {
     // The last to hold a session may be another thread, which answers it, so it is looked up only once.
     std::vector<std::shared_ptr<HttpSession>> held;
     std::erase_if(sessions, [&](const auto& session) {
@@ -75,13 +87,20 @@ struct HttpServer::Inside {
       held.push_back(std::move(one));
       return false;
     });
-    if (sessions.size() < most_connections) return true;
+    if (sessions.size() < most_connections && !is_short) return true;
     std::vector<Connection> connections;
+    if (is_short) connections = hub.connections();
+    const auto streams = connections.size();
     for (const auto& session : held) connections.push_back(session->connection());
+    if (connections.empty()) return true;  // others have the descriptors, and one is left
     const auto chosen = one_to_close(connections);
     if (!chosen) return false;
-    held[*chosen]->close();
-    sessions.erase(sessions.begin() + static_cast<std::ptrdiff_t>(*chosen));
+    if (*chosen < streams) {
+      hub.close(*chosen);
+      return true;
+    }
+    held[*chosen - streams]->close();
+    sessions.erase(sessions.begin() + static_cast<std::ptrdiff_t>(*chosen - streams));
     return true;
   }
 

@@ -119,7 +119,8 @@ void HttpSession::on_header() {
     return answer_and_close(error_answer(403, "a page of another site must not operate this machine"));
   if (!is_api) {
     if (request.method() != http::verb::get) return answer_and_close(unrouted(RouteResult::no_method));
-    return answer(api_.page(path, gzip_));
+    connection_.activity = Activity::transferring;
+    return api_.page(path, gzip_, answer_here());
   }
   if (match_.result != RouteResult::found) return answer_and_close(unrouted(match_.result));
   user_ =
@@ -127,9 +128,6 @@ void HttpSession::on_header() {
                              prolongs_session(match_.operation));
   if (line_ && user_) set_user(*line_, *user_);
   if (auto refusal = api_.access().refusal(user_, match_)) return answer_and_close(std::move(*refusal));
-  const auto station =
-      api_.operating().station_of(view(request[http::field::cookie]), connection_.peer, user_);
-  if (auto refusal = api_.operating().refusal(station, match_)) return answer_and_close(std::move(*refusal));
   if (match_.operation == Operation::write_program) {
     connection_.activity = Activity::transferring;
     return continue_then(&HttpSession::begin_upload);
@@ -177,8 +175,6 @@ void HttpSession::dispatch() {
   if (match_.operation == Operation::stream || match_.operation == Operation::plc_watch) {
     if (!beast::websocket::is_upgrade(body_->get()))
       return answer(error_answer(426, "this path is for WebSocket only"));
-    if (const auto refusal = hub_.refusal(connection_.peer); !refusal.empty())
-      return answer(error_answer(503, refusal));
     const auto& headers = body_->get();
     Visitor visitor{sender(headers, stream_.secure()), connection_.peer,
                     std::string(view(headers[http::field::cookie])),
@@ -193,6 +189,10 @@ void HttpSession::dispatch() {
   const auto& request = body_->get();
   connection_.activity = request.method() == http::verb::get ? Activity::transferring : Activity::answering;
   if (match_.operation == Operation::read_program) return begin_download();
+  // Now that all of it is here: an order that never ends must not hold the right.
+  const auto station =
+      api_.operating().station_of(view(request[http::field::cookie]), connection_.peer, user_);
+  if (auto refusal = api_.operating().refusal(station, match_, order_)) return answer(std::move(*refusal));
   const auto header = [&](http::field name) { return std::string(view(request[name])); };
   const RequestText text{query_,
                          request.body(),
@@ -202,10 +202,14 @@ void HttpSession::dispatch() {
                          header(http::field::cookie),
                          connection_.peer,
                          user_};
-  api_.handle(match_, text, [self = shared_from_this()](Answer made) {
+  api_.handle(match_, text, answer_here());
+}
+
+Respond HttpSession::answer_here() {
+  return [self = shared_from_this()](Answer made) {
     net::post(self->stream_.get_executor(),
               [self, made = std::move(made)]() mutable { self->answer(std::move(made)); });
-  });
+  };
 }
 
 void HttpSession::journal(unsigned status, const Asked& asked, std::function<void()> then) {
@@ -230,6 +234,7 @@ void HttpSession::note_plc(unsigned status) {
 }
 
 void HttpSession::answer(Answer made) {
+  api_.operating().answered(std::exchange(order_, nullptr), made.status);
   if (!line_) {
     if (user_ && is_of_plc_programs(match_.operation) && body_ && body_->get().method() != http::verb::get)
       note_plc(made.status);
@@ -245,10 +250,21 @@ void HttpSession::answer(Answer made) {
 void HttpSession::send(Answer made) {
   connection_.activity = Activity::transferring;
   if (made.source) return send_source(std::move(made));
-  if (gzip_ && made.encoding.empty() && made.body.size() >= least_compressed && is_compressible(made.type)) {
-    made.body = gzip(made.body, 1);  // the fastest: orders wait meanwhile
+  if (gzip_ && made.encoding.empty() && made.body.size() >= least_compressed && is_compressible(made.type))
+    return compress(std::move(made));
+  write(std::move(made));
+}
+
+void HttpSession::compress(Answer made) {
+  api_.requests().post([self = shared_from_this(), made = std::move(made)]() mutable {
+    made.body = gzip(made.body, 1);  // the fastest: others wait meanwhile
     made.encoding = "gzip";
-  }
+    net::post(self->stream_.get_executor(),
+              [self, made = std::move(made)]() mutable { self->write(std::move(made)); });
+  });
+}
+
+void HttpSession::write(Answer made) {
   response_ = {static_cast<http::status>(made.status), http_version};
   set_fields(response_, made);
   if (const auto shown = api_.mailbox().newest())

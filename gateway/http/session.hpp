@@ -54,9 +54,14 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   /// Writes the line of the journal first when the request has one.
   void answer(Answer answer);
   void send(Answer answer);
+  /// On the thread of the requests; sends it then.
+  void compress(Answer answer);
+  void write(Answer answer);
   /// Answers a request whose body has not been read; the connection ends with it.
   void answer_and_close(Answer answer);
   void too_large_body();
+  /// Continues with answer() here, on the thread of the connection.
+  Respond answer_here();
   /// A callback for the bus thread that continues here, on the thread of the connection.
   ProgramDone here(Completion next);
 
@@ -94,6 +99,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   Match match_;
   std::string query_;
   std::optional<access::Identity> user_;  ///< of the request under way
+  std::shared_ptr<OrderUnderWay> order_;  ///< the request under way, when it is one that needs the right
   bool keep_alive_ = false;
   std::chrono::steady_clock::time_point waits_since_{};
   bool complete_ = false;              ///< the request that is being read has arrived whole

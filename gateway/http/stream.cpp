@@ -21,7 +21,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds heartbeat_period{250};
 constexpr std::size_t most_answers = 16;
-constexpr std::size_t most_streams = 128, most_of_a_peer = 64;
+constexpr std::size_t most_streams = 128;
 
 std::shared_ptr<const std::string> text(const bus::Json& json) {
   return std::make_shared<const std::string>(bus::text_of(json));
@@ -50,19 +50,25 @@ void StreamHub::show() {
 
 void StreamHub::join(const std::shared_ptr<Viewer>& viewer) {
   show();  // a new client begins with what is known now
-  viewers_.insert(viewer);
+  if (viewers_.size() >= most_streams)
+    if (const auto chosen = one_to_close(connections())) close(*chosen);
+  viewers_.push_back(viewer);
   count_ = viewers_.size();
 }
 
-std::string StreamHub::refusal(const std::string& peer) const {
-  if (viewers_.size() >= most_streams) return std::to_string(most_streams) + " streams are open: close one";
-  const auto own = std::ranges::count(viewers_, peer, [](const auto& viewer) { return viewer->peer(); });
-  if (own < static_cast<std::ptrdiff_t>(most_of_a_peer)) return {};
-  return peer + " has " + std::to_string(own) + " streams open: close one";
+std::vector<Connection> StreamHub::connections() const {
+  std::vector<Connection> all;
+  for (const auto& viewer : viewers_) all.push_back({viewer->peer(), Activity::streaming});
+  return all;
+}
+
+void StreamHub::close(std::size_t index) {
+  const auto chosen = viewers_.at(index);
+  chosen->close();
 }
 
 void StreamHub::leave(const std::shared_ptr<Viewer>& viewer) {
-  viewers_.erase(viewer);
+  std::erase(viewers_, viewer);
   count_ = viewers_.size();
 }
 
@@ -135,13 +141,16 @@ void StreamSession::take_order(const std::string& text) {
                         error_answer(404, "only " + commands::routes_by_stream() + " come by the stream"));
   const auto user = api_.access().identify(visitor_.cookies, visitor_.authorization, false);
   const auto station = api_.operating().station_of(visitor_.cookies, visitor_.peer, user);
-  if (const auto refusal = api_.operating().refusal(station, found)) return answer_order(order, *refusal);
+  std::shared_ptr<OrderUnderWay> under_way;
+  if (const auto refusal = api_.operating().refusal(station, found, under_way))
+    return answer_order(order, *refusal);
   const auto body = member("body", bus::Json::object()).dump();
   auto line = std::make_shared<JournalLine>(begin_line(visitor_.sender, visitor_.peer, "POST", target));
   if (user) set_user(*line, *user);
   add_body(*line, body);
-  api_.handle(found, {"", body}, [self = shared_from_this(), order, line](Answer made) {
-    boost::asio::post(self->socket_.get_executor(), [self, order, line, made = std::move(made)] {
+  api_.handle(found, {"", body}, [self = shared_from_this(), order, line, under_way](Answer made) {
+    boost::asio::post(self->socket_.get_executor(), [self, order, line, under_way, made = std::move(made)] {
+      self->api_.operating().answered(under_way, made.status);
       add_answer(*line, made.body);
       line->status = static_cast<std::uint16_t>(made.status);
       set_asked(*line, made.asked);

@@ -12,11 +12,12 @@
 #include <deque>
 #include <map>
 #include <memory>
-#include <set>
+#include <vector>
 
 #include "api.hpp"
 #include "http/transport.hpp"
 #include "http/viewer.hpp"
+#include "src/connections.hpp"
 
 namespace trunnion::gateway {
 
@@ -27,10 +28,13 @@ class StreamHub {
   void start();
   /// There is something new; each snapshot has its own peaks and its own part of the trace.
   void show();
+  /// When too many are open, the oldest of the peer with most gives way.
   void join(const std::shared_ptr<Viewer>& viewer);
   void leave(const std::shared_ptr<Viewer>& viewer);
-  /// Why `peer` gets no stream: one line. Empty when it gets one.
-  std::string refusal(const std::string& peer) const;
+  /// From the oldest to the newest.
+  std::vector<Connection> connections() const;
+  /// One of connections().
+  void close(std::size_t index);
   std::size_t size() const { return count_; }
   const std::shared_ptr<const Snapshot>& newest() const { return newest_; }
   /// Text of the message that brings a client from `from` (null: from nothing) to the newest state. Empty
@@ -42,7 +46,7 @@ class StreamHub {
   Mailbox& mailbox_;
   std::shared_ptr<const Snapshot> newest_;
   std::map<std::uint64_t, std::shared_ptr<const std::string>> cache_;  ///< by the sequence it starts from
-  std::set<std::shared_ptr<Viewer>> viewers_;
+  std::vector<std::shared_ptr<Viewer>> viewers_;                       ///< from the oldest to the newest
   std::atomic<std::size_t> count_{0};
 };
 
@@ -55,6 +59,7 @@ class StreamSession : public Viewer, public std::enable_shared_from_this<StreamS
   void offer(const std::shared_ptr<const Snapshot>&) override { offer(); }
   /// Closes the stream when the session of its visitor is over.
   void each_second() override;
+  void close() override;
 
  private:
   void read();
@@ -63,7 +68,6 @@ class StreamSession : public Viewer, public std::enable_shared_from_this<StreamS
   void take_order(const std::string& text);
   void answer_order(const bus::Json& order, const Answer& made);
   void send(std::shared_ptr<const std::string> message);
-  void close();
   boost::beast::websocket::stream<Transport> socket_;
   StreamHub& hub_;
   Api& api_;

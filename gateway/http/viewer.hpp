@@ -26,6 +26,8 @@ class Viewer {
   virtual void offer(const std::shared_ptr<const Snapshot>& newest) = 0;
   /// Once a second.
   virtual void each_second() = 0;
+  /// Another stream takes its place.
+  virtual void close() = 0;
 
  protected:
   const Visitor visitor_;

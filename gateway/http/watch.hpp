@@ -26,6 +26,7 @@ class WatchSession : public Viewer, public std::enable_shared_from_this<WatchSes
   void accept(const boost::beast::http::request<boost::beast::http::string_body>& request);
   void offer(const std::shared_ptr<const Snapshot>& newest) override;
   void each_second() override;
+  void close() override;
 
  private:
   using Request = idl::plc::OnlineRequest;
@@ -36,7 +37,6 @@ class WatchSession : public Viewer, public std::enable_shared_from_this<WatchSes
   void answered(const Request& asked, const std::optional<Reply>& reply);
   void send(const bus::Json& message);
   void write_next();
-  void close();
 
   boost::beast::websocket::stream<Transport> socket_;
   StreamHub& hub_;

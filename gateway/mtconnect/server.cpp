@@ -17,6 +17,7 @@
 
 #include "http/listen.hpp"
 #include "http/transport.hpp"
+#include "src/connections.hpp"
 
 namespace trunnion::gateway::mtconnect {
 
@@ -32,6 +33,7 @@ namespace {
 constexpr milliseconds observed_every{50}, between_streams{10};
 constexpr std::chrono::seconds timeout{30};
 constexpr std::size_t most_sessions = 64;
+constexpr rlim_t descriptors_for_http = 16;  // the last ones: a stop order comes by HTTP
 constexpr const char* boundary = "trunnion-mtconnect-part";
 
 std::string time_text() {
@@ -49,7 +51,14 @@ std::string time_text() {
 class Session : public std::enable_shared_from_this<Session> {
  public:
   Session(tcp::socket&& socket, const Agent& agent)
-      : stream_(std::move(socket)), timer_(stream_.get_executor()), agent_(agent) {}
+      : stream_(std::move(socket)), peer_(stream_.peer()), timer_(stream_.get_executor()), agent_(agent) {}
+
+  const std::string& peer() const { return peer_; }
+  /// Another connection takes its place.
+  void close() {
+    stream_.close();
+    timer_.cancel();
+  }
 
   void read() {
     parser_.emplace();
@@ -167,6 +176,7 @@ class Session : public std::enable_shared_from_this<Session> {
   }
 
   Transport stream_;
+  const std::string peer_;
   net::steady_timer timer_;
   const Agent& agent_;
   beast::flat_buffer buffer_;
@@ -208,8 +218,8 @@ struct Server::Inside {
   void accept() {
     acceptor.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
       if (error == net::error::operation_aborted) return;
-      std::erase_if(sessions, [](const auto& session) { return session.expired(); });
-      if (!error && sessions.size() < most_sessions) {
+      make_room(error || is_of_reserve(socket, descriptors_for_http) ? 1 : most_sessions);
+      if (!error) {
         boost::system::error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
         const auto session = std::make_shared<Session>(std::move(socket), agent);
@@ -217,11 +227,23 @@ struct Server::Inside {
         session->read();
       }
       if (!error) return accept();
-      pause.expires_after(milliseconds(100));  // out of file descriptors, most likely
+      pause.expires_after(milliseconds(100));
       pause.async_wait([this](const boost::system::error_code& stopped) {
         if (!stopped) accept();
       });
     });
+  }
+
+  /// When there are `most`, the oldest of the peer with most gives way.
+  void make_room(std::size_t most) {
+    std::erase_if(sessions, [](const auto& session) { return session.expired(); });
+    if (sessions.size() < most) return;
+    std::vector<Connection> connections;
+    for (const auto& session : sessions) connections.push_back({session.lock()->peer(), Activity::streaming});
+    const auto chosen = one_to_close(connections);
+    if (!chosen) return;
+    sessions[*chosen].lock()->close();
+    sessions.erase(sessions.begin() + static_cast<std::ptrdiff_t>(*chosen));
   }
 
   net::io_context context{1};

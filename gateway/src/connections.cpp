@@ -17,12 +17,16 @@ std::optional<std::size_t> one_to_close(std::span<const Connection> connections,
     }
     return chosen;
   };
-  const auto waiting = std::ranges::count(connections, Activity::waiting, &Connection::activity);
-  if (connections.size() - static_cast<std::size_t>(waiting) <= at_work) {
+  const auto count = [&](Activity activity) {
+    return static_cast<std::size_t>(std::ranges::count(connections, activity, &Connection::activity));
+  };
+  if (count(Activity::transferring) + count(Activity::answering) <= at_work) {
     if (const auto chosen = oldest(Activity::waiting)) return chosen;
-    if (waiting > 0) return std::nullopt;
+    if (count(Activity::waiting) > 0) return std::nullopt;
+    if (const auto chosen = oldest(Activity::streaming)) return chosen;
   }
-  for (const auto activity : {Activity::transferring, Activity::answering, Activity::waiting})
+  for (const auto activity :
+       {Activity::transferring, Activity::answering, Activity::waiting, Activity::streaming})
     if (const auto chosen = oldest(activity)) return chosen;
   return std::nullopt;
 }

@@ -13,6 +13,7 @@ namespace trunnion::gateway {
 /// What a connection does.
 enum class Activity {
   waiting,       ///< for a request, or for the rest of it
+  streaming,     ///< states go to it as they change: a WebSocket, a client of MTConnect
   transferring,  ///< a program comes, an answer goes, or something is looked up for one
   answering      ///< its order is with the cluster
 };
@@ -28,10 +29,10 @@ struct Connection {
 inline constexpr std::size_t most_connections = 160, most_at_work = 128;
 
 /// Index of the connection to be closed for a new one; `connections` from the oldest to the newest. It is one
-/// that waits for a request of which nothing arrives. When more than `at_work` do something else: one that
-/// transfers, or else one whose order is with the cluster, which acts on it although nobody hears so. Of
-/// these, the oldest of the peer with most connections. Nothing when there are none, or when one must be read
-/// first because its request arrives: closed, its order would be lost.
+/// that waits for a request of which nothing arrives, or else a stream. When more than `at_work` do something
+/// else: one that transfers, or else one whose order is with the cluster, which acts on it although nobody
+/// hears so. Of these, the oldest of the peer with most connections. Nothing when there are none, or when one
+/// must be read first because its request arrives: closed, its order would be lost.
 std::optional<std::size_t> one_to_close(std::span<const Connection> connections,
                                         std::size_t at_work = most_at_work);
 

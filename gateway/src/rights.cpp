@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "commands/command_table.hpp"
 #include "machine/roles.hpp"
 
 namespace trunnion::gateway {
@@ -21,7 +22,7 @@ std::optional<Role> needed_role(const Match& match) {
       if (match.command == "emergency-stop") return {};
       return Role::machine_operator;
     case Operation::channel_command:
-      if (match.command == "feed-hold" || match.command == "jog-stop") return {};
+      if (commands::stops_motion(match.command)) return {};
       return Role::machine_operator;
     case Operation::plc_force:
     case Operation::plc_release:

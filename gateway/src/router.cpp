@@ -134,7 +134,7 @@ const std::vector<Route>& routes() {
   return table;
 }
 
-std::uint64_t largest_body(Operation operation) {
+bool is_short(Operation operation) {
   switch (operation) {
     case Operation::session:
     case Operation::login:
@@ -145,11 +145,15 @@ std::uint64_t largest_body(Operation operation) {
     case Operation::channel_command:
     case Operation::panel_command:
     case Operation::measurement_abort:
-      return 4u << 10;
+    case Operation::remove_program:
+    case Operation::rename_program:
+      return true;
     default:
-      return 1u << 20;
+      return false;
   }
 }
+
+std::uint64_t largest_body(Operation operation) { return is_short(operation) ? 4u << 10 : 1u << 20; }
 
 Match match(std::string_view method, std::string_view path) {
   Match found;

@@ -100,7 +100,11 @@ struct Match {
   std::vector<std::string> parts;  ///< what stood for each `{x}`, percent-decoded
 };
 
-/// Bytes of the body of a request. What everybody may send is short: it is read before other requests.
+/// Orders to the cluster and what everybody may send: a short body that is read at once, on the thread of the
+/// connections. All else waits for its turn on another.
+bool is_short(Operation operation);
+
+/// Bytes of the body of a request.
 std::uint64_t largest_body(Operation operation);
 
 /// `path` without the query. HEAD is not routed. A part that does not decode is no path.

@@ -86,6 +86,11 @@ void StateDocument::apply(const idl::stream::FeedbackFrame& frame) {
       if (std::abs(error) > std::abs(peak_[i])) peak_[i] = error;
     }
     trace_.add(frame.first + row, actual_);
+    executed_ = true;
+  }
+  if (!executed_) {
+    commanded_ = actual_ = frame.position;
+    peak_.assign(frame.position.size(), 0.0);
   }
   feedback_ = frame;
   has_feedback_ = true;

@@ -33,6 +33,9 @@ class StateDocument {
 
   /// Whether the alarm of this instance, number and part is active.
   bool is_active(const idl::service::Alarm& alarm) const;
+  /// Whether it has heard of an executed cycle: until then the axes are shown where they stand, as commanded
+  /// and actual.
+  bool executed() const { return executed_; }
   /// The whole document; peaks and the trace start afresh with it.
   bus::Json document(double now);
 
@@ -63,7 +66,7 @@ class StateDocument {
   bool has_cluster_ = false;
   bus::Json plc_, measurement_, revisions_ = bus::Json::object();
   idl::stream::FeedbackFrame feedback_;
-  bool has_feedback_ = false;
+  bool has_feedback_ = false, executed_ = false;
   std::vector<double> commanded_, actual_, peak_;
   std::vector<std::uint16_t> drive_axes_;
   Trace trace_;

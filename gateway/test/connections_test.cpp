@@ -22,6 +22,16 @@ TEST(Connections, OneThatWaitsMakesRoomBeforeOneThatTransfers) {
   EXPECT_EQ(one_to_close(list), 2u);
 }
 
+TEST(Connections, AStreamMakesRoomBeforeATransferAndTheOldestOfThePeerWithMost) {
+  const List list{{"10.0.0.1", Activity::streaming},
+                  {"10.0.0.2", Activity::transferring},
+                  {"10.0.0.2", Activity::streaming},
+                  {"10.0.0.2", Activity::streaming}};
+  EXPECT_EQ(one_to_close(list), 2u);
+  EXPECT_EQ(one_to_close(std::span(list).first(2)), 0u);
+  EXPECT_EQ(one_to_close(list, 0), 1u) << "too many are at work";
+}
+
 TEST(Connections, ATransferMakesRoomWhenNoneWaits) {
   const List list{{"10.0.0.2", Activity::answering}, {"10.0.0.2", Activity::transferring}};
   EXPECT_EQ(one_to_close(list), 1u);

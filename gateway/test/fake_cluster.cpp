@@ -233,6 +233,7 @@ idl::channel::ChannelReply FakeCluster::apply(const idl::channel::ChannelRequest
 }
 
 void FakeCluster::answer_channel() {
+  if (channel_hangs) return;
   idl::channel::ChannelRequest request;
   while (channel_server_.take(request)) {
     channel_requests.push_back(request);
@@ -273,6 +274,7 @@ void FakeCluster::answer_program() {
         break;
       case Operation::WRITE:
         reply.accepted = request.offset == upload.size();
+        if (request.offset + request.data.size() > largest_program) reply.accepted = false, reply.alarm = 150;
         largest_write = std::max<std::uint64_t>(largest_write, request.data.size());
         upload.insert(upload.end(), request.data.begin(), request.data.end());
         break;
@@ -295,7 +297,7 @@ void FakeCluster::answer_program() {
         break;
     }
     if (!reply.accepted) {
-      reply.alarm = 141;
+      if (reply.alarm == 0) reply.alarm = 141;
       reply.reason = "not possible with " + request.name;
     }
     program_server_.reply(request, reply);
@@ -348,6 +350,10 @@ void FakeCluster::answer_others() {
   }
 }
 
+std::vector<double> FakeCluster::positions() const {
+  return {50 * std::cos(path_), 50 * std::sin(path_), 5 * std::sin(3 * path_), -20, path_ * 180 / M_PI};
+}
+
 void FakeCluster::publish_motion(double now) {
   const double elapsed = now - last_motion_;
   last_motion_ = now;
@@ -355,13 +361,13 @@ void FakeCluster::publish_motion(double now) {
   channel.feed = running ? 1800 * channel.feed_override : 0;
   idl::stream::FeedbackFrame frame{};
   frame.first = cycle_;
-  frame.count = std::min(64u, static_cast<std::uint32_t>(elapsed * 1000) + 1);
+  frame.count = at_rest ? 0 : std::min(64u, static_cast<std::uint32_t>(elapsed * 1000) + 1);
+  if (at_rest) ++frames_at_rest;
   frame.axis_count = axes;
   for (std::uint32_t i = 0; i < frame.count; ++i) {
     if (running)
       path_ += channel.feed_override * 0.001 * 30 / 50;  // 30 mm/s on a radius of 50 mm, in radians
-    const double position[axes] = {50 * std::cos(path_), 50 * std::sin(path_), 5 * std::sin(3 * path_), -20,
-                                   path_ * 180 / M_PI};
+    const auto position = positions();
     for (std::size_t a = 0; a < axes; ++a) {
       frame.commanded.push_back(position[a]);
       frame.actual.push_back(position[a] -
@@ -369,15 +375,15 @@ void FakeCluster::publish_motion(double now) {
     }
     ++cycle_;
   }
-  const double* last = &frame.actual[(frame.count - 1) * axes];
-  frame.position.assign(last, last + axes);
+  frame.position = positions();
+  if (frame.count > 0) frame.position.assign(frame.actual.end() - axes, frame.actual.end());
   frame.enabled.assign(axes, 1);
   frame.spindle_speed = {running ? 7994.0 : 0.0};
   frame.tick = cycle_;
   feedback_.write(frame);
 
   channel.cycle = cycle_;
-  channel.machine.assign(last, last + axes);
+  channel.machine = frame.position;
   channel.workpiece = channel.machine;
   channel.workpiece[2] += 320.5;
   channel.distance_to_go = {running ? 0.4 : 0, running ? -0.2 : 0, 0, 0, running ? 1.2 : 0};

@@ -19,6 +19,8 @@ class FakeCluster {
 
   /// Answers what has arrived and publishes what is due. Call every few milliseconds.
   void step();
+  /// `programs` is another list.
+  void publish_programs();
 
   /// What the services were asked, in the order it arrived.
   std::vector<idl::channel::ChannelRequest> channel_requests;
@@ -27,8 +29,14 @@ class FakeCluster {
   std::vector<idl::parameters::ParameterRequest> parameter_requests;
   /// The channel service hears, but does not answer.
   bool channel_is_silent = false;
+  /// It does not hear either, until it goes on.
+  bool channel_hangs = false;
+  /// The drive executes no cycle, and says so by frames without rows; how many there were.
+  bool at_rest = false;
+  std::size_t frames_at_rest = 0;
   std::map<std::string, std::vector<std::uint8_t>> programs;
-  std::map<std::string, int> stored_by;  ///< the role of each program that was stored
+  std::uint64_t largest_program = 1u << 30;  ///< bytes for which there is room
+  std::map<std::string, int> stored_by;      ///< the role of each program that was stored
   idl::channel::ChannelState channel;
   std::uint64_t largest_write = 0;  ///< bytes in the largest part of an upload
 
@@ -37,8 +45,9 @@ class FakeCluster {
   void answer_program();
   void answer_others();
   void publish_once();
-  void publish_programs();
   void publish_motion(double now);
+  /// Of the axes, on the circle.
+  std::vector<double> positions() const;
   idl::channel::ChannelReply apply(const idl::channel::ChannelRequest& request);
 
   bus::Bus bus_;

@@ -117,19 +117,48 @@ TEST_F(Gateway, OrdersThatAreBeingAnsweredDoNotShutOutAStopAndAreActedOn) {
   EXPECT_TRUE(eventually([&] { return arrived() == orders; })) << arrived();
 }
 
-TEST_F(Gateway, OnePeerDoesNotTakeTheStreamsOfOthers) {
+/// Whether a stream ends: it has a message four times a second until then.
+bool ends(WebSocketClient& stream) {
+  return eventually([&] { return !stream.next(); });
+}
+
+TEST_F(Gateway, TheOldestStreamOfThePeerWithMostGivesWayToANewOne) {
+  http_client::Server from_elsewhere(port_);
+  from_elsewhere.source = "127.0.0.2";
+  WebSocketClient page(from_elsewhere, "/api/stream");
   std::vector<std::unique_ptr<WebSocketClient>> streams;
-  // All that one peer gets; there are twice as many.
-  for (int i = 0; i < 64; ++i) {
+  for (int i = 0; i < 128; ++i) {  // with that of the page one more than there may be
     streams.push_back(std::make_unique<WebSocketClient>(port_, "/api/stream"));
     EXPECT_TRUE(streams.back()->open());
   }
-  EXPECT_FALSE(WebSocketClient(port_, "/api/stream").open());
-  http_client::Server from_elsewhere(port_);
-  from_elsewhere.source = "127.0.0.2";
-  EXPECT_TRUE(WebSocketClient(from_elsewhere, "/api/stream").open());
-  streams.pop_back();
-  EXPECT_TRUE(eventually([&] { return WebSocketClient(port_, "/api/stream").open(); })) << "one has gone";
+  EXPECT_TRUE(ends(*streams.front()));
+  EXPECT_EQ(answer_by(*streams.back(), {{"order", 1}, {"path", "/api/panel/emergency-stop"}})["status"], 200);
+  EXPECT_EQ(answer_by(page, {{"order", 2}, {"path", "/api/panel/emergency-stop"}})["status"], 200);
+}
+
+/// The process may open `more` files than it has.
+void limit_files(pid_t process, rlim_t more) {
+  rlim_t last = 0;
+  for (const auto& file : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/fd"))
+    last = std::max<rlim_t>(last, std::stoul(file.path().filename()));
+  const rlimit files{last + 1 + more, last + 1 + more};
+  ASSERT_EQ(prlimit(process, RLIMIT_NOFILE, &files, nullptr), 0);
+}
+
+TEST_F(Gateway, ConnectionsThatHoldTheFileDescriptorsGiveWayToAStop) {
+  limit_files(process_->pid(), 24);
+  HeldConnections held(port_);
+  for (int round = 0; round < 5; ++round) {
+    for (int i = 0; i < 20; ++i) {
+      held.open("");
+      held.open("POST /api/panel/emergency-stop HTTP/1.1\r\nHo");
+      held.open(
+          "GET /api/stream HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+          "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+    }
+    EXPECT_EQ(post("/api/panel/emergency-stop").status, 200);
+    EXPECT_EQ(get("/").status, 200) << "a file of the page is opened, too";
+  }
 }
 
 TEST_F(Gateway, AStopComesByTheStreamWithoutANewConnection) {

@@ -111,6 +111,15 @@ class Gateway : public testing::Test {
     const std::lock_guard lock(mutex_);
     return look(cluster_);
   }
+  /// Returns when the gateway lists them.
+  void publish_4000_programs() {
+    cluster([](auto& c) {
+      for (int i = 0; i < 4000; ++i) c.programs["PART-" + std::to_string(i) + ".NC"] = {'M', '2', '\n'};
+      c.publish_programs();
+    });
+    const auto listed = [&] { return get("/api/programs?offset=4000").headers["x-total-count"]; };
+    EXPECT_TRUE(eventually([&] { return listed().size() == 4; }));
+  }
 
   const std::uint16_t port_ = free_port();
   std::string web_, state_, machine_directory_ = MACHINE;

@@ -6,6 +6,7 @@
 #include "bus/registry.hpp"
 #include "contracts/topics.hpp"
 #include "gateway_fixture.hpp"
+#include "held_connections.hpp"
 #include "hold_times.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_writer.hpp"
@@ -67,6 +68,72 @@ TEST_F(Gateway, OrdersAreAnsweredDuringThreeDownloadsOfAMillionCycles) {
       "a million cycles, %zu MB as CSV: %.2f s; p99 of a hold: %.1f ms, with three downloads %.1f ms of "
       "%zu\n",
       table.body.size() >> 20, lasted.count(), p99(alone), p99(busy), busy.size());
+}
+
+/// Seconds that the thread `name` of a process has run.
+double processor_time(pid_t process, const std::string& name) {
+  for (const auto& thread :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+    std::string called;
+    std::getline(std::ifstream(thread.path() / "comm"), called);
+    double nanoseconds = 0;
+    if (called == name && std::ifstream(thread.path() / "schedstat") >> nanoseconds)
+      return 1e-9 * nanoseconds;
+  }
+  return 0;
+}
+
+/// A body of 1 MB that is read whole and then refused: numbers are no values of parameters.
+std::string large_body() {
+  std::string values = R"({"values": [)";
+  while (values.size() < 1'000'000) values += "0.12345678901234567,";
+  return values + "0]}";
+}
+
+TEST_F(Gateway, LargeBodiesAndAnswersDoNotOccupyTheThreadThatReadsTheConnections) {
+  publish_4000_programs();
+  const auto values = large_body();
+  const auto used = [&](const char* thread) { return processor_time(process_->pid(), thread); };
+  const auto connections = used("gateway-http"), requests = used("gateway-work");
+  for (int i = 0; i < 30; ++i) {
+    const auto packed = http_client::request(port_, "GET", "/api/programs", "", "Accept-Encoding: gzip\r\n");
+    EXPECT_EQ(packed.headers.at("content-encoding"), "gzip");
+    EXPECT_EQ(http_client::request(port_, "PUT", "/api/parameters", values).status, 400);
+  }
+  EXPECT_LT(used("gateway-http") - connections, 0.25 * (used("gateway-work") - requests));
+}
+
+double resident_megabytes(pid_t process) {
+  double size = 0, resident = 0;
+  std::ifstream("/proc/" + std::to_string(process) + "/statm") >> size >> resident;
+  return 1e-6 * resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+TEST_F(Gateway, MemoryThatLargeAnswersHeldIsGivenBack) {
+  publish_4000_programs();
+  const auto values = large_body();
+  const auto ask = [&] {
+    EXPECT_EQ(get("/api/programs").status, 200);
+    EXPECT_EQ(get("/api/parameters?limit=5000").status, 200);
+    EXPECT_EQ(http_client::request(port_, "PUT", "/api/parameters", values).status, 400);
+  };
+  const auto resident = [&] { return resident_megabytes(process_->pid()); };
+  ask();
+  const double before = resident();
+  const std::string host = " HTTP/1.1\r\nHost: 127.0.0.1\r\n";
+  for (int round = 0; round < 3; ++round) {
+    HeldConnections held(port_);
+    for (int i = 0; i < 100; ++i) {
+      held.open("GET /api/parameters?limit=5000" + host + "\r\n");
+      held.open("GET /api/stream" + host +
+                "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+      if (i % 4 == 0) held.open("GET /api/programs" + host + "\r\n");
+      if (i % 10 == 0) ask();
+    }
+    EXPECT_TRUE(eventually([&] { return resident() > 1.2 * before; })) << resident() << " of " << before;
+  }
+  EXPECT_TRUE(eventually([&] { return resident() < 1.1 * before; })) << resident() << " of " << before;
 }
 
 // The program service writes another program to a slow disk meanwhile.

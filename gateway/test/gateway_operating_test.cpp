@@ -5,6 +5,7 @@
 #include "cluster/cluster_files.hpp"
 #include "cluster/operating_station.hpp"
 #include "gateway_fixture.hpp"
+#include "held_connections.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -74,6 +75,38 @@ TEST_F(GatewayOperating, TheFirstOrderTakesTheRightAndStopsStayEverybodys) {
   }
   EXPECT_EQ(http_client::request(port_, "PUT", "/api/programs/FROM_CAM.NC", "M30\n", other).status, 200)
       << "files come from elsewhere";
+}
+
+TEST_F(GatewayOperating, ARefusedOrderDoesNotTakeTheRight) {
+  const auto one = browser(), other = browser();
+  EXPECT_EQ(ask("/api/channels/0/mdi", one, {{"line", "?"}}).status, 409) << "refused by the channel";
+  EXPECT_EQ(ask("/api/channels/0/mdi", one, {{"word", "G0"}}).status, 400);
+  EXPECT_EQ(ask("/api/channels/7/cycle-start", one).status, 404);
+  EXPECT_EQ(right(one)["holder"], nullptr);
+  EXPECT_EQ(ask("/api/alarms/reset", other).status, 200);
+  EXPECT_TRUE(right(other)["mine"]);
+}
+
+TEST_F(GatewayOperating, AnOrderHasTheRightUntilItsAnswer) {
+  const auto one = browser(), other = browser();
+  cluster([](auto& c) { c.channel_is_silent = true; });
+  Response unanswered;
+  std::thread waiting([&] { unanswered = ask("/api/channels/0/reset", one); });
+  EXPECT_TRUE(eventually([&] { return cluster([](auto& c) { return !c.channel_requests.empty(); }); }));
+  const auto refused = ask("/api/alarms/reset", other);
+  waiting.join();
+  EXPECT_EQ(unanswered.status, 504);
+  EXPECT_EQ(refused.status, 409) << "while the order of the other one was being answered";
+  EXPECT_EQ(right(one)["holder"], nullptr);
+  EXPECT_EQ(ask("/api/alarms/reset", other).status, 200);
+}
+
+TEST_F(GatewayOperating, AnOrderThatNeverEndsDoesNotHoldTheRight) {
+  const auto one = browser(), other = browser();
+  HeldConnections held(port_);
+  held.open("POST /api/panel/reset HTTP/1.1\r\nHost: 127.0.0.1\r\n" + one + "Content-Length: 2\r\n\r\n{");
+  EXPECT_EQ(get("/api/status").status, 200) << "asked after it";
+  EXPECT_EQ(ask("/api/alarms/reset", other).status, 200);
 }
 
 TEST_F(GatewayOperating, TheRightIsShownAndGivenBack) {

@@ -100,6 +100,10 @@ TEST_F(Gateway, BadInputNeverReachesTheBus) {
       http_client::request(port_, "PUT", "/api/programs/BIG", "", "Content-Length: 200000000\r\n").status,
       413);
   EXPECT_EQ(http_client::request(port_, "PUT", "/api/programs/..%2fX", "G0").status, 400);
+  cluster([](auto& c) { c.largest_program = 1; });
+  const auto no_room = http_client::request(port_, "PUT", "/api/programs/NO-ROOM", "G0");
+  EXPECT_EQ(no_room.status, 507);
+  EXPECT_EQ(json::parse(no_room.body)["alarm"], 150);
   EXPECT_THAT(raw_exchange(port_, "nonsense\r\n\r\n"), HasSubstr("400"));
   cluster([](auto& c) { EXPECT_TRUE(c.channel_requests.empty()); });
 }
@@ -112,6 +116,61 @@ TEST_F(Gateway, APageOfAnotherSiteMustNotOperateTheMachine) {
   const auto own = "Origin: http://127.0.0.1:" + std::to_string(port_) + "\r\n";
   EXPECT_EQ(http_client::request(port_, "POST", "/api/channels/0/cycle-start", "{}", own).status, 200);
   cluster([](auto& c) { EXPECT_EQ(c.channel_requests.size(), 1u); });
+}
+
+// The swap of a gateway on a machine that has been at rest for longer than the history of the feedback.
+TEST_F(Gateway, OneThatStandsByAfterALongRestKnowsWhereTheAxesAreAndMatches) {
+  EXPECT_TRUE(
+      eventually([&] { return get("/api/channels/0").body.find("\"actual\"") != std::string::npos; }));
+  cluster([](auto& c) { c.at_rest = true; });
+  const std::size_t history = bus::writer_qos(bus::QosKind::frame, {}).depth;
+  EXPECT_TRUE(eventually([&] { return cluster([&](auto& c) { return c.frames_at_rest > history; }); }));
+  bus::Bus bus(bus::Vendor::cyclonedds, {domain});
+  auto beats = bus.reader(topics::service_state);
+  auto arguments = command_line(port_, web_);
+  arguments.emplace_back("--shadow");
+  const Process standby(arguments, web_ + "/standby.txt");
+  idl::service::ServiceState state{}, newest{};
+  using idl::service::StandbyState;
+  EXPECT_TRUE(eventually([&] {
+    while (beats.take(state))
+      if (state.pid == standby.pid()) newest = state;
+    return newest.standby == StandbyState::MATCHING || newest.standby == StandbyState::DIFFERING;
+  }));
+  EXPECT_EQ(newest.standby, StandbyState::MATCHING) << newest.difference;
+}
+
+TEST_F(Gateway, OneThatStartsAfterALongRestShowsTheAxesWhereTheyAre) {
+  cluster([](auto& c) { c.at_rest = true; });
+  const std::size_t history = bus::writer_qos(bus::QosKind::frame, {}).depth;
+  EXPECT_TRUE(eventually([&] { return cluster([&](auto& c) { return c.frames_at_rest > history; }); }));
+  process_.reset();
+  process_ = std::make_unique<Process>(command_line(port_, web_), web_ + "/stderr.txt");
+  json first;
+  EXPECT_TRUE(eventually([&] {
+    const auto answer = get("/api/channels/0");
+    if (answer.status != 200) return false;
+    first = json::parse(answer.body)["positions"][0];
+    return first.contains("actual");
+  })) << first;
+  EXPECT_EQ(first["actual"], first["position"]);
+  EXPECT_EQ(first["actual"], 50);
+}
+
+TEST_F(Gateway, AStopIsAcceptedWhileTheChannelHangsAndTakenWhenItGoesOn) {
+  cluster([](auto& c) { c.channel_hangs = true, c.channel.state = idl::channel::RunState::RUNNING; });
+  const auto held = post("/api/channels/0/feed-hold");
+  EXPECT_EQ(held.status, 202);
+  EXPECT_EQ(json::parse(held.body)["accepted"], true);
+  EXPECT_THAT(held.body, HasSubstr("feed hold is repeated until channel 0 answers"));
+  const auto jog = post("/api/channels/0/jog-stop", {{"axis", "X"}});
+  EXPECT_EQ(jog.status, 202);
+  EXPECT_THAT(jog.body, HasSubstr("jog stop is repeated until channel 0 answers"));
+  EXPECT_EQ(post("/api/channels/0/single-block", {{"on", true}}).status, 504) << "any other order";
+  cluster([](auto& c) { c.channel_hangs = false; });
+  EXPECT_TRUE(eventually(
+      [&] { return cluster([](auto& c) { return c.channel.state == idl::channel::RunState::HELD; }); }));
+  EXPECT_EQ(post("/api/channels/0/feed-hold").status, 200);
 }
 
 TEST_F(Gateway, ASilentServiceIsAGatewayTimeoutAndOthersGoOnMeanwhile) {

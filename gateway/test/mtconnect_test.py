@@ -289,6 +289,16 @@ class Agent(unittest.TestCase):
         self.document("/current")
         for one in slow: one.close()
 
+    def test_the_oldest_connection_of_the_address_with_most_gives_way(self):
+        elsewhere = socket.create_connection(("127.0.0.1", self.port), timeout=60, source_address=("127.0.0.2", 0))
+        elsewhere.sendall(b"GET /current?interval=20 HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        held = [socket.create_connection(("127.0.0.1", self.port), timeout=60) for _ in range(70)]
+        self.assertEqual(self.ask("/probe")[0], 200)
+        self.assertEqual(held[0].recv(1), b"", "closed by the agent")
+        received = b""
+        while received.count(b"</MTConnectStreams>") < 10: received += elsewhere.recv(65536) or self.fail("the stream has ended")
+        for one in [elsewhere] + held: one.close()
+
     def test_bytes_that_are_no_request_end_the_connection_alone(self):
         for text in (b"nonsense\r\n\r\n", b"GET / HTTP/1.1\r\n" + b"x: " + b"y" * 20000 + b"\r\n\r\n", b"\0" * 100 + b"\r\n\r\n"):
             with socket.create_connection(("127.0.0.1", self.port), timeout=10) as one:

@@ -177,6 +177,28 @@ TEST(StateDocument, ColumnsOfTheFeedbackGoToTheLogicalAxesOfTheDrive) {
   EXPECT_EQ(json["trace"]["first"], 50) << "and the last trace stays until there is a new one";
 }
 
+TEST(StateDocument, BeforeTheFirstCycleAxesAreShownWhereTheyStand) {
+  StateDocument document;
+  document.set_drive_axes({0, 5});
+  auto rest = feedback();
+  rest.count = 0;
+  rest.commanded.clear(), rest.actual.clear();
+  rest.position = {3, -4};
+  document.apply(rest);
+  EXPECT_FALSE(document.executed());
+  auto axis = document.document(0)["axes"]["5"];
+  EXPECT_EQ(axis["position"], -4);
+  EXPECT_EQ(axis["actual"], -4);
+  EXPECT_EQ(axis["commanded"], -4);
+  EXPECT_EQ(axis["following_error"], 0);
+  document.apply(feedback());
+  EXPECT_TRUE(document.executed());
+  document.apply(rest);
+  axis = document.document(0)["axes"]["5"];
+  EXPECT_EQ(axis["actual"], 20.25) << "of the last cycle";
+  EXPECT_EQ(axis["position"], -4);
+}
+
 TEST(StateDocument, AFrameWithFewerNumbersThanItSaysIsReadAsFarAsItGoes) {
   StateDocument document;
   document.set_drive_axes({0, 1, 2});

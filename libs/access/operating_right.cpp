@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "access/operating_right.hpp"
 
+#include <utility>
+
 #include "access/secrets.hpp"
 
 namespace trunnion::access {
@@ -23,9 +25,31 @@ void OperatingRight::expire(double now) {
 std::string OperatingRight::order(const Station& station, double now) {
   expire(now);
   if (holder_ && holder_->station.key != station.key) return holder_->station.name;
-  holder_ = {station, now};
-  if (asking_ && asking_->station.key == station.key) asking_.reset();
+  if (holder_) {
+    holder_ = {station, now};
+    return {};
+  }
+  if (reserved_ && reserved_->key != station.key) return reserved_->name;
+  if (!reserved_) orders_ = 0;
+  reserved_ = station;
+  ++orders_;
   return {};
+}
+
+bool OperatingRight::answered(std::string_view key, bool accepted, double now) {
+  if (!reserved_ || reserved_->key != key) return false;
+  if (!accepted) {
+    if (--orders_ == 0) reserved_.reset();
+    return false;
+  }
+  give_to(*std::exchange(reserved_, {}), now);
+  return true;
+}
+
+void OperatingRight::give_to(const Station& station, double now) {
+  holder_ = {station, now};
+  reserved_.reset();
+  if (asking_ && asking_->station.key == station.key) asking_.reset();
 }
 
 void OperatingRight::present(std::string_view key, double now) {
@@ -40,8 +64,7 @@ OperatingRight::Taken OperatingRight::take(const Station& station, double now) {
     asking_ = {station, now};
     return Taken::asked;
   }
-  holder_ = {station, now};
-  if (asking_ && asking_->station.key == station.key) asking_.reset();
+  give_to(station, now);
   return Taken::yes;
 }
 

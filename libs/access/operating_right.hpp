@@ -30,9 +30,12 @@ class OperatingRight {
   /// Seconds without a sign of a station after which it has lost the right.
   static constexpr double lease = 15;
 
-  /// An order of `station`: takes the right when nobody holds it. Empty, or the name of who holds it. `now`
-  /// in seconds of a monotonic clock.
+  /// An order of `station`: reserves the right until it is answered, when nobody holds it. Empty, or the name
+  /// of who holds or has reserved it. `now` in seconds of a monotonic clock.
   std::string order(const Station& station, double now);
+  /// An order of `key` is answered: one that is accepted takes the right that it has reserved, and then this
+  /// is true; when none is, the right is free again.
+  bool answered(std::string_view key, bool accepted, double now);
   /// A sign of the station, which may hold the right or ask for it.
   void present(std::string_view key, double now);
 
@@ -61,7 +64,10 @@ class OperatingRight {
   };
   static std::optional<ShownStation> current(const std::optional<Present>& one, double now);
   void expire(double now);
+  void give_to(const Station& station, double now);
   std::optional<Present> holder_, asking_;
+  std::optional<Station> reserved_;  ///< without holder: whose orders are being answered
+  int orders_ = 0;                   ///< how many they are
 };
 
 }  // namespace trunnion::access

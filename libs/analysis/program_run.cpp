@@ -25,8 +25,8 @@ bool is_move(const Command& command) {
 
 constexpr std::uint64_t no_limit = 100000000;  // cycles
 
-// Calls of ProgramFlow::fill() in a row, of millions of blocks each, that may bring no move.
-constexpr int most_reads = 25;
+// In a row, which may bring no move.
+constexpr std::uint64_t most_lines = 100000000;
 
 constexpr std::uint64_t cycles_between_stops = 256;
 
@@ -49,7 +49,6 @@ class Runner {
     flow_.set_guard(guard);
     flow_.on_move = [this](const Command& move) {
       ++result_.blocks;
-      reads_ = 0;
       if (moves_) moves_(move, frame_);
     };
   }
@@ -72,9 +71,14 @@ class Runner {
  private:
   bool go_on_reading() {
     if (flow_.text_missing()) return fail("The text ends in the middle of reading");
+    return (stop_ && stop_()) ? end_here() : true;
+  }
+
+  bool go_on_in_loop() {
     if (stop_ && stop_()) return end_here();
-    if (++reads_ < most_reads) return true;
-    return fail("The program repeats without a move");
+    if (flow_.lines_without_motion() > most_lines) return fail("The program repeats without a move");
+    flow_.read_on();
+    return true;
   }
 
   // As ChannelCore::run_pending.
@@ -95,6 +99,7 @@ class Runner {
       result_.good = true;
       return false;
     }
+    if (state_ == FlowState::loop) return go_on_in_loop();
     return state_ != FlowState::command || take(flow_.pending());
   }
 
@@ -173,7 +178,6 @@ class Runner {
   const std::function<void(const Command&, const FrameMoves&)>& moves_;
   std::uint64_t most_;
   const std::function<bool()>& stop_;
-  int reads_ = 0;
   motion::Trajectory trajectory_;
   language::VariableStore variables_;
   program_execution::ProgramFlow flow_;

@@ -50,7 +50,9 @@ void Client::start_from_line(std::uint16_t channel, std::uint32_t line) {
 void Client::channel(ChannelRequest request) {
   request.role = of_the_owner, request.who = "command line";
   const auto reply = channel_.call(request, timeout);
-  if (!reply) throw std::runtime_error("channel " + std::to_string(request.channel) + " does not answer");
+  if (!reply)
+    throw std::runtime_error(
+        service::silence("channel " + std::to_string(request.channel), timeout, channel_.connected()));
   if (!reply->accepted)
     throw std::runtime_error(reply->reason +
                              (reply->alarm != 0 ? " (alarm " + std::to_string(reply->alarm) + ")" : ""));
@@ -58,7 +60,8 @@ void Client::channel(ChannelRequest request) {
 
 idl::program::ProgramReply Client::program(idl::program::ProgramRequest request) {
   const auto reply = program_.call(std::move(request), timeout);
-  if (!reply) throw std::runtime_error("the program service does not answer");
+  if (!reply)
+    throw std::runtime_error(service::silence("the program service", timeout, program_.connected()));
   if (!reply->accepted) throw std::runtime_error(reply->reason);
   return *reply;
 }
@@ -66,7 +69,8 @@ idl::program::ProgramReply Client::program(idl::program::ProgramRequest request)
 idl::parameters::ParameterReply Client::parameter(idl::parameters::ParameterRequest request) {
   request.role = of_the_owner;
   const auto reply = parameter_.call(std::move(request), timeout);
-  if (!reply) throw std::runtime_error("the parameters service does not answer");
+  if (!reply)
+    throw std::runtime_error(service::silence("the parameters service", timeout, parameter_.connected()));
   if (!reply->accepted) throw std::runtime_error(reply->reason);
   return *reply;
 }
@@ -83,7 +87,7 @@ idl::plc::PanelReply Client::panel(idl::plc::PanelRequestKind kind) {
     return reply;
   };
   const auto reply = panel_.call({.kind = kind}, timeout, held);
-  if (!reply) throw std::runtime_error("the PLC does not answer");
+  if (!reply) throw std::runtime_error(service::silence("the PLC", timeout, panel_.connected()));
   if (!reply->accepted) throw std::runtime_error(reply->reason);
   return *reply;
 }

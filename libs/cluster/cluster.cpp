@@ -36,8 +36,10 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
                                 std::to_string(cluster.port)};
   args.insert(args.end(), {"--host", cluster.host});
   args.insert(args.end(), {"--clock-offset", std::to_string(cluster.network.clock_offset)});
+  args.insert(args.end(), {"--session", std::to_string(cluster.session)});
   for (auto& argument : executable_arguments(up.executables)) args.push_back(std::move(argument));
   if (up.one_host) args.emplace_back("--one-host");
+  if (up.keep_faulty) args.emplace_back("--keep-faulty");
   if (up.of_this_process) args.insert(args.end(), {"--owner", std::to_string(getpid())});
   if (!up.vendor.empty()) args.insert(args.end(), {"--vendor", up.vendor});
   if (cluster.virtual_time) args.emplace_back("--virtual-time");
@@ -99,20 +101,23 @@ void check_not_in_use(const RunningCluster& cluster, bool take_over) {
 }  // namespace
 
 void write_info(const RunningCluster& cluster) {
-  std::ofstream(cluster.run.info_file()) << nlohmann::json{{"machine", cluster.machine},
-                                                           {"machine_directory", cluster.machine_directory},
-                                                           {"state_directory", cluster.state_directory},
-                                                           {"virtual_time", cluster.virtual_time},
-                                                           {"port", cluster.port},
-                                                           {"host", cluster.host},
-                                                           {"interface", cluster.network.interface_address},
-                                                           {"peers", cluster.network.peers},
-                                                           {"multicast", cluster.network.multicast},
-                                                           {"security", cluster.network.security},
-                                                           {"clock_offset", cluster.network.clock_offset},
-                                                           {"open", cluster.open},
-                                                           {"domain", cluster.run.domain}}
-                                         << "\n";
+  const auto file = cluster.run.info_file(), fresh = file + ".new";
+  std::ofstream(fresh) << nlohmann::json{{"machine", cluster.machine},
+                                         {"machine_directory", cluster.machine_directory},
+                                         {"state_directory", cluster.state_directory},
+                                         {"virtual_time", cluster.virtual_time},
+                                         {"port", cluster.port},
+                                         {"host", cluster.host},
+                                         {"interface", cluster.network.interface_address},
+                                         {"peers", cluster.network.peers},
+                                         {"multicast", cluster.network.multicast},
+                                         {"security", cluster.network.security},
+                                         {"clock_offset", cluster.network.clock_offset},
+                                         {"open", cluster.open},
+                                         {"session", cluster.session},
+                                         {"domain", cluster.run.domain}}
+                       << "\n";
+  fs::rename(fresh, file);  // who reads it meanwhile finds all of it
 }
 
 namespace {
@@ -160,6 +165,7 @@ RunningCluster start_cluster(const UpOptions& up) {
   cluster.network.domain = cluster.run.domain;
   cluster.network.identity = "deploy";
   cluster.network.clock_offset = bus::wall_clock_offset();
+  cluster.session = getsid(0);
   cluster.machine = config.name;
   cluster.machine_directory = config.directory;
   cluster.open = !config.hosts.empty() && config.security.empty();
@@ -190,7 +196,10 @@ RunningCluster start_cluster(const UpOptions& up) {
   options.detached = true;
   auto answer = ChildProcess(options).read_all();
   while (!answer.empty() && answer.back() == '\n') answer.pop_back();
-  if (answer != "ready") {
+  constexpr std::string_view faulty = "faulty ";
+  if (answer.starts_with(faulty)) {
+    cluster.fault = answer.substr(faulty.size());
+  } else if (answer != "ready") {
     // Another cluster may have taken the domain meanwhile, and the directory is its own then.
     if (!domain_holder(cluster.run.domain, cluster.host)) {
       for (int i = 0; i < 300 && cluster.run.launcher(); ++i)
@@ -229,28 +238,14 @@ bus::NetworkSettings network_in(std::uint32_t domain) {
   return network;
 }
 
-RunningCluster find_cluster(std::optional<std::uint32_t> domain) {
-  const auto all = run_directories();
-  if (!domain) {
-    for (const auto& run : all) {
-      if (!run.launcher()) continue;
-      if (domain) throw std::runtime_error("several clusters are running: say which with --domain");
-      domain = run.domain;
-    }
-  }
-  for (const auto& run : all)
-    if (run.abandoned() && (!domain || run.domain == *domain))
-      throw std::runtime_error("the launcher of the cluster in domain " + std::to_string(run.domain) +
-                               " was killed and its services ended with it; their logs are in " + run.path() +
-                               " until 'trunnion down' or the next 'trunnion up'");
-  if (!domain) throw std::runtime_error("no cluster is running: start one with 'trunnion up MACHINE'");
-  RunningCluster cluster;
-  cluster.run.domain = *domain;
-  if (!cluster.run.launcher())
-    throw std::runtime_error("no cluster is running in domain " + std::to_string(*domain));
-  std::ifstream in(cluster.run.info_file());
+namespace {
+
+std::optional<RunningCluster> read_info(const RunDirectory& run) {
+  std::ifstream in(run.info_file());
   const auto info = nlohmann::json::parse(in, nullptr, false);
-  if (info.is_discarded()) throw std::runtime_error(cluster.run.info_file() + ": cannot be read");
+  if (!info.is_object()) return std::nullopt;
+  RunningCluster cluster;
+  cluster.run = run;
   cluster.machine = info.value("machine", "");
   cluster.machine_directory = info.value("machine_directory", "");
   cluster.state_directory = info.value("state_directory", "");
@@ -258,8 +253,33 @@ RunningCluster find_cluster(std::optional<std::uint32_t> domain) {
   cluster.port = info.value("port", std::uint16_t{0});
   cluster.host = info.value("host", "");
   cluster.open = info.value("open", false);
-  cluster.network = network_in(*domain);
+  cluster.session = info.value("session", 0);
+  cluster.network = network_in(run.domain);
   return cluster;
+}
+
+}  // namespace
+
+std::vector<RunningCluster> running_clusters() {
+  std::vector<RunningCluster> running;
+  for (const auto& run : run_directories())
+    if (run.launcher())
+      if (auto cluster = read_info(run)) running.push_back(*std::move(cluster));
+  return running;
+}
+
+RunningCluster find_cluster(std::optional<std::uint32_t> domain) {
+  auto found = running_clusters();
+  if (domain) std::erase_if(found, [&](const auto& cluster) { return cluster.run.domain != *domain; });
+  if (found.size() > 1) throw std::runtime_error("several clusters are running: say which with --domain");
+  if (!found.empty()) return found.front();
+  for (const auto& run : run_directories())
+    if (run.abandoned() && (!domain || run.domain == *domain))
+      throw std::runtime_error("the launcher of the cluster in domain " + std::to_string(run.domain) +
+                               " was killed and its services ended with it; their logs are in " + run.path() +
+                               " until 'trunnion down' or the next 'trunnion up'");
+  throw std::runtime_error(domain ? "no cluster is running in domain " + std::to_string(*domain)
+                                  : "no cluster is running: start one with 'trunnion up MACHINE'");
 }
 
 }  // namespace trunnion::cluster

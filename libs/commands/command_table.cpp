@@ -21,6 +21,16 @@ std::string routes_by_stream() {
   return list;
 }
 
+Motion motion_of(idl::channel::CommandKind kind) {
+  const auto found = std::ranges::find(channel_commands(), kind, &ChannelCommand::kind);
+  return found == channel_commands().end() ? Motion::neither : found->motion;
+}
+
+bool stops_motion(std::string_view route) {
+  return std::ranges::any_of(
+      channel_commands(), [&](const auto& row) { return row.route == route && row.motion == Motion::stops; });
+}
+
 const ChannelCommand* find_word(std::string_view word) {
   const auto rows = channel_commands();
   const auto found =

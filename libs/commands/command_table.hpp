@@ -41,6 +41,9 @@ struct Field {
   std::span<const double> one_of{};  ///< when not empty, in place of minimum and maximum
 };
 
+/// What a command is for the motion of its channel.
+enum class Motion { neither, starts, stops };
+
 struct ChannelCommand {
   idl::channel::CommandKind kind;
   std::string_view route;                 ///< last part of POST /api/channels/{channel}/...
@@ -50,6 +53,7 @@ struct ChannelCommand {
   std::span<const idl::channel::Mode> modes;  ///< in which it is accepted; empty = in every one
   bool busy;                                  ///< it is accepted while the channel is busy
   bool by_stream;                             ///< HTTP: also over the open WebSocket of /api/stream
+  Motion motion;
   std::span<const Field> fields;
 };
 
@@ -68,6 +72,9 @@ std::span<const PanelCommand> panel_commands();
 bool is_by_stream(std::string_view route);
 /// What comes that way, for a message: "a, b, c".
 std::string routes_by_stream();
+Motion motion_of(idl::channel::CommandKind kind);
+/// Whether a POST to the last part `route` of a path stops the motion of a channel.
+bool stops_motion(std::string_view route);
 /// Null when there is none.
 const ChannelCommand* find_word(std::string_view word);
 const PanelCommand* find_panel_word(std::string_view word);

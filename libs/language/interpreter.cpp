@@ -40,7 +40,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   found_.fill({});
   next_found_ = 0;
   jumps_.clear();
-  blocks_ = 0;
+  blocks_ = lines_ = 0;
   stop_line_ = 0;
   else_if_due_ = false;
   modal_calls_.leave(0);
@@ -65,6 +65,7 @@ Step Interpreter::next(Command& command) {
     if (state_ == State::failed) return Step::alarm;
     if (lines == lines_per_call) return Step::working;
     queue_.clear();
+    ++lines_;
     Step step = Step::working;
     state_ = state_ == State::searching ? search_line(step) : run_line(step);
     if (step == Step::pending || step == Step::line) return step;

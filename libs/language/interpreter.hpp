@@ -102,6 +102,8 @@ class Interpreter {
   }
   /// Blocks executed since start(), a loop's each time.
   std::uint64_t blocks() const { return blocks_; }
+  /// Lines read since start(), also those that a jump or a call has searched; a loop's each time.
+  std::uint64_t lines() const { return lines_; }
   const VariableStore& variables() const { return variables_.store(); }
   /// The local variables of the macro that is being read.
   const std::array<Value, local_variables>& locals() const { return variables_.locals(); }
@@ -201,7 +203,7 @@ class Interpreter {
   Alarm alarm_;
   std::uint32_t line_ = 0;  // of the block being executed
   std::uint32_t stop_line_ = 0;
-  std::uint64_t blocks_ = 0;
+  std::uint64_t blocks_ = 0, lines_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
   // A jump that looks for its target, and the alarms if it is not found or not allowed.

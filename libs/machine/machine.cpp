@@ -7,6 +7,7 @@
 
 #include "machine/chain_section.hpp"
 #include "machine/collision_mode.hpp"
+#include "machine/gateway_loss.hpp"
 #include "machine/gateway_settings.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/services.hpp"
@@ -86,6 +87,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                                    "hardware",
                                    "hal",
                                    "collision",
+                                   "gateway_loss",
                                    "hosts",
                                    "network",
                                    "security",
@@ -107,6 +109,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   read_gateway_settings(document, file);  // the gateway reads them itself; an error is found at the start
   for (const auto& name : document["host_names"]) config.host_names.push_back(scalar(file, name));
   read_collision_mode(document, file);  // the channel reads it itself
+  read_gateway_loss(document, file);    // and this one the launcher
   const auto time = value<std::string>(file, document, "time", "real");
   if (time != "real" && time != "virtual")
     throw std::runtime_error(at(file, document["time"]) + "time must be 'real' or 'virtual'");

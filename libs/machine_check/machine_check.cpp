@@ -14,6 +14,7 @@
 #include "channel_setup/channel_setup.hpp"
 #include "collision_guard/collision_guard.hpp"
 #include "machine/axis_faults.hpp"
+#include "machine/gateway_loss.hpp"
 #include "machine/machine.hpp"
 #include "machine/service_constants.hpp"
 #include "machine/yaml.hpp"
@@ -156,10 +157,42 @@ class Check {
           add(e.what(), directory);
         }
       };
-      translated([&] { st::translate_sources(files, config_->simulated(), directory + "/"); });
-      translated([&] { st::modbus_of(files, directory + "/"); });
+      std::optional<st::Translation> translation;
+      std::optional<st::ModbusFile> modbus;
+      translated([&] { translation = st::translate_sources(files, config_->simulated(), directory + "/"); });
+      translated([&] { modbus = st::modbus_of(files, directory + "/"); });
+      if (translation && modbus) stopping_inputs(translation->uses, *modbus);
     } catch (const std::exception& e) {
       add(e.what(), directory);
+    }
+  }
+
+  static bool is_read(const st::Uses& uses, const std::string& input) {
+    try {
+      const auto places = uses.of(input);
+      return std::any_of(places.begin(), places.end(), [](const auto& place) { return place.use.reads; });
+    } catch (const std::exception&) {  // nothing uses it
+      return false;
+    }
+  }
+
+  // A machine that runs on without its page needs inputs that hold and stop it: something outside must write
+  // them, and the programs of the PLC read them.
+  void stopping_inputs(const st::Uses& uses, const st::ModbusFile& modbus) {
+    const auto inputs = machine::load_gateway_loss(directory_);
+    if (!inputs) return;
+    const auto file = path("machine.yaml");
+    const auto node = machine::parse_yaml(machine::read_text(file), file)["gateway_loss"]["continue_with"];
+    for (const auto& entry :
+         {std::pair("feed_hold", inputs->feed_hold), std::pair("emergency_stop", inputs->emergency_stop)}) {
+      const std::string name = entry.first, input = entry.second;
+      const auto refuse = [&](const std::string& why) {
+        add(machine::at(file, node[name]) + name + " is " + input + ", " + why, file);
+      };
+      const char* problem = nullptr;
+      if (!st::writes_input(modbus, *st::parse_register(input, &problem)))
+        refuse("which no block of plc/modbus.yaml writes: without the page the operator has no such key");
+      if (!is_read(uses, "%" + input)) refuse("which no program of the PLC reads");
     }
   }
 
@@ -189,8 +222,7 @@ class Check {
     }
   }
 
-  // Axes that do not fit together are an alarm of the parameters service: only a machine that runs can
-  // correct what is saved. A channel that cannot be configured lets no machine run.
+  // Axes that do not fit together are an alarm of the parameters service, and let the machine move.
   void saved(const Setups& of_the_folder) {
     const auto file = state_directory_ + "/parameters.yaml";
     auto read = machine::check_parameter_text(storage::read_kept(file).content, file);
@@ -270,9 +302,9 @@ MachineReport check_machine(const std::string& directory, const std::string& sta
   return Check(directory, state_directory).report();
 }
 
-void require_good(const std::string& directory, const std::string& state_directory) {
+void require_good(const std::string& directory) {
   std::string lines;
-  for (const auto& finding : check_machine(directory, state_directory).findings)
+  for (const auto& finding : check_machine(directory).findings)
     lines += (lines.empty() ? "" : "\n") + to_string(finding);
   if (!lines.empty()) throw std::runtime_error(lines);
 }

@@ -32,7 +32,8 @@ struct MachineReport {
 /// from.
 MachineReport check_machine(const std::string& directory, const std::string& state_directory = "");
 
-/// Throws std::runtime_error with a line for each finding of check_machine().
-void require_good(const std::string& directory, const std::string& state_directory = "");
+/// Throws std::runtime_error with a line for each finding of check_machine(). What is saved does not count:
+/// only a machine that runs can correct it.
+void require_good(const std::string& directory);
 
 }  // namespace trunnion::machine_check

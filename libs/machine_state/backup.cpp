@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "machine_state/archive.hpp"
+#include "machine_state/machine_directory.hpp"
 #include "machine_state/state_check.hpp"
 #include "storage/crc32.hpp"
 #include "storage/file.hpp"
@@ -28,24 +29,13 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* manifest_name = "MANIFEST.json";
+constexpr const char* configuration_folder = "configuration/";
 constexpr int tries = 20;  // to read what a running cluster is writing
 
-std::string read_file(const fs::path& path) {
-  const storage::File file(path.string(), O_RDONLY);
-  std::string bytes(file.size(), '\0');
-  bytes.resize(file.read(0, {reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size()}));
-  return bytes;
-}
-
-void write_files(const fs::path& directory, const std::map<std::string, std::string>& files) {
-  fs::remove_all(directory);
-  fs::create_directories(directory / "programs");
-  for (const auto& [name, bytes] : files) {
-    storage::File file((directory / name).string(), O_WRONLY | O_CREAT | O_EXCL);
-    file.append(0, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-    file.sync();
-  }
-  storage::sync_directory((directory / "programs").string());
+// The folder is there in a state without a program, too.
+void write_state(const fs::path& directory, const FileSet& files) {
+  write_files(directory.string(), files);
+  fs::create_directory(directory / "programs");
   storage::sync_directory(directory.string());
 }
 
@@ -76,11 +66,10 @@ Backup collect(const std::string& directory, const std::string& machine, const s
   const auto copy = scratch.path() / "state";
   std::string problem;
   for (int i = 0; i < tries; ++i) {
-    Backup backup{machine, version, time, {}};
+    Backup backup{machine, version, time, {}, {}};
     try {
-      for (const auto& name : state_files(directory))
-        backup.files[name] = read_file(fs::path(directory) / name);
-      write_files(copy, backup.files);
+      for (const auto& name : state_files(directory)) backup.files[name] = read_file(directory + "/" + name);
+      write_state(copy, backup.files);
       problem = damage_in(copy);
     } catch (const storage::StorageError& e) {
       problem = e.what();  // a file that was replaced meanwhile
@@ -91,23 +80,51 @@ Backup collect(const std::string& directory, const std::string& machine, const s
   throw std::runtime_error("no backup of a damaged state: " + problem + " ('trunnion state check')");
 }
 
+namespace {
+
+// Adds the files as members, and what the manifest has of them.
+nlohmann::json add_members(const FileSet& files, const std::string& folder, std::vector<Member>& members) {
+  auto list = nlohmann::json::array();
+  for (const auto& [name, bytes] : files) {
+    list.push_back({{"name", name}, {"size", bytes.size()}, {"crc32", storage::crc32(bytes)}});
+    members.push_back({folder + name, bytes});
+  }
+  return list;
+}
+
+// The members from `at` on that the list names, which are moved behind them.
+FileSet take_members(const nlohmann::json& list, const std::string& folder,
+                     bool (*valid)(const std::string& name), std::vector<Member>& members, std::size_t& at) {
+  FileSet files;
+  for (const auto& entry : list) {
+    auto& member = members.at(at++);
+    const auto name = entry.at("name").get<std::string>();
+    if (folder + name != member.name || !valid(name))
+      throw std::runtime_error("the backup has an unexpected file: " + member.name);
+    if (entry.at("size").get<std::uint64_t>() != member.bytes.size() ||
+        entry.at("crc32").get<std::uint32_t>() != storage::crc32(member.bytes))
+      throw std::runtime_error("the backup is damaged: the checksum of " + member.name + " is wrong");
+    files[name] = std::move(member.bytes);
+  }
+  return files;
+}
+
+}  // namespace
+
 std::string write_backup(const Backup& backup) {
+  std::vector<Member> members(1);
   nlohmann::json manifest{{"format", backup_format},
                           {"machine", backup.machine},
                           {"version", backup.version},
-                          {"time", backup.time},
-                          {"files", nlohmann::json::array()}};
-  std::vector<Member> members(1);
-  for (const auto& [name, bytes] : backup.files) {
-    manifest["files"].push_back({{"name", name}, {"size", bytes.size()}, {"crc32", storage::crc32(bytes)}});
-    members.push_back({name, bytes});
-  }
+                          {"time", backup.time}};
+  manifest["files"] = add_members(backup.files, "", members);
+  manifest["configuration"] = add_members(backup.configuration, configuration_folder, members);
   members[0] = {manifest_name, storage::seal(manifest_name, 1, manifest.dump(1) + "\n")};
   return write_tar(members);
 }
 
 Backup read_backup(const std::string& bytes) {
-  const auto members = read_tar(bytes);
+  auto members = read_tar(bytes);
   std::string problem;
   const auto sealed = members.empty() || members[0].name != manifest_name
                           ? std::nullopt
@@ -116,26 +133,23 @@ Backup read_backup(const std::string& bytes) {
   const auto manifest = nlohmann::json::parse(sealed->content, nullptr, false);
   Backup backup;
   try {
-    if (const auto format = manifest.at("format").get<unsigned>(); format > backup_format)
+    const auto format = manifest.at("format").get<unsigned>();
+    if (format > backup_format)
       throw std::runtime_error("the backup has format " + std::to_string(format) +
                                ", and this version reads up to " + std::to_string(backup_format) +
                                ": install a newer version");
     backup.machine = manifest.at("machine").get<std::string>();
     backup.version = manifest.at("version").get<std::string>();
     backup.time = manifest.at("time").get<std::string>();
-    const auto& list = manifest.at("files");
-    if (list.size() + 1 != members.size())
+    const auto& state = manifest.at("files");
+    const auto configuration = format == 1 ? nlohmann::json::array() : manifest.at("configuration");
+    const auto listed = state.size() + configuration.size();
+    if (listed + 1 != members.size())
       throw std::runtime_error("the backup has " + std::to_string(members.size() - 1) + " files instead of " +
-                               std::to_string(list.size()));
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const auto& member = members[i + 1];
-      if (list[i].at("name").get<std::string>() != member.name || !valid_name(member.name))
-        throw std::runtime_error("the backup has an unexpected file: " + member.name);
-      if (list[i].at("size").get<std::uint64_t>() != member.bytes.size() ||
-          list[i].at("crc32").get<std::uint32_t>() != storage::crc32(member.bytes))
-        throw std::runtime_error("the backup is damaged: the checksum of " + member.name + " is wrong");
-      backup.files[member.name] = member.bytes;
-    }
+                               std::to_string(listed));
+    std::size_t at = 1;
+    backup.files = take_members(state, "", valid_name, members, at);
+    backup.configuration = take_members(configuration, configuration_folder, is_machine_file, members, at);
   } catch (const nlohmann::json::exception&) {
     throw std::runtime_error("no backup: its list of files has another shape");
   }
@@ -147,7 +161,7 @@ std::string restore(const Backup& backup, const std::string& directory) {
                  old = state.string() + ".before-restore";
   const bool replaces = fs::exists(state);
   try {
-    write_files(fresh, backup.files);
+    write_state(fresh, backup.files);
     if (const auto problem = damage_in(fresh); !problem.empty())
       throw std::runtime_error("the backup has a damaged state: " + problem);
     if (!replaces)

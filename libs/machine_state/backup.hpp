@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole state of a machine in one file: a tar archive with a list of its files, their sizes and
-// checksums.
+// The whole state of a machine and the files that make it up in one file: a tar archive with a list of its
+// files, their sizes and checksums.
 #pragma once
 
-#include <map>
 #include <string>
+
+#include "machine_state/file_set.hpp"
 
 namespace trunnion::machine_state {
 
-/// Version of the layout of a backup. Version 1 is the first. What it contains states its own formats
-/// (storage::kept_format), and the services read older ones, so a backup of format 1 needs no migration.
-inline constexpr unsigned backup_format = 1;
+/// Version of the layout of a backup. Version 1 has the state only. What it contains states its own formats
+/// (storage::kept_format), and the services read older ones, so older backups need no migration.
+inline constexpr unsigned backup_format = 2;
 
 struct Backup {
-  std::string machine;                       ///< its name
-  std::string version;                       ///< of the product that wrote it
-  std::string time;                          ///< ISO 8601, UTC
-  std::map<std::string, std::string> files;  ///< by their names below the state directory
+  std::string machine;  ///< its name
+  std::string version;  ///< of the product that wrote it
+  std::string time;     ///< ISO 8601, UTC
+  FileSet files;        ///< of the state directory
+  FileSet
+      configuration;  ///< of the machine's directory (machine_directory.hpp); none in a backup of format 1
 };
 
 /// The state in `directory` now, of a cluster that runs or not. Throws std::runtime_error when something in

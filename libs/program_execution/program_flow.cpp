@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_execution/program_flow.hpp"
 
+#include <cmath>
+
 #include "machine/alarm_constants.hpp"
 #include "motion/path_segment.hpp"
 
@@ -16,6 +18,8 @@ std::string place(std::uint32_t program, std::uint32_t line) {
   if (program != 0) name = std::string(language::ProgramName(program).view()) + ":";
   return name + std::to_string(line);
 }
+
+constexpr double least_motion = 0.01;  // mm or degrees
 
 bool is_path(CommandKind kind) {
   return kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc;
@@ -37,6 +41,8 @@ void ProgramFlow::start(motion::Trajectory& trajectory, language::TextSource& te
   search_ = entry.restart.sequence > 0 ? Search::restart : entry.line > 0 ? Search::line : Search::none;
   if (entry.restart.sequence == 0) skips_.clear();
   skips_read_ = 0;
+  lines_at_motion_ = 0, most_lines_ = lines_of_loop;
+  place_ = position;
   tapping_ = in_hole_ = refused_ = text_missing_ = false;
   executing_ = initial;
   frames_.clear();
@@ -211,18 +217,40 @@ FlowState ProgramFlow::take_step(language::Step step) {
   return FlowState::waiting;
 }
 
+// Moves to where the axes are take no time, and motion may make one point of short ones to and fro: a loop of
+// these is one without motion.
+void ProgramFlow::note_motion() {
+  const auto kind = command_.kind;
+  bool moves = kind == CommandKind::tap || kind == CommandKind::skip || kind == CommandKind::arc ||
+               (kind == CommandKind::dwell && command_.dwell_seconds > 0);
+  for (std::size_t i = 0; i < place_.size() && is_path(kind); ++i)
+    moves = moves || std::abs(command_.target[i] - place_[i]) > least_motion;
+  if (moves || kind == CommandKind::transformation) place_ = command_.target;
+  if (!moves) return;
+  lines_at_motion_ = interpreter_.lines();
+  most_lines_ = lines_of_loop;
+}
+
 FlowState ProgramFlow::fill(bool single_block) {
   text_missing_ = false;
   if (refused_) return FlowState::alarm;
   if (guard_ != nullptr) guard_->begin_call();
-  constexpr int most_commands = 4096;  // a long search for the restart point must leave time for messages
+  // A long search for the restart point must leave time for messages.
+  constexpr int most_commands = 4096;
+  const auto last_line = interpreter_.lines() + lines_of_loop;
   for (int i = 0; i < most_commands; ++i) {
     if (!searching() && !trajectory_->can_accept()) return FlowState::full;
     if (!have_command_) {
+      if (lines_without_motion() >= most_lines_) {
+        trajectory_->finish();
+        return FlowState::loop;
+      }
+      if (interpreter_.lines() >= last_line) return FlowState::waiting;
       const auto step = interpreter_.next(command_);
       if (step == language::Step::working) continue;
       if (const auto state = take_step(step); state != FlowState::full) return state;
       if (!have_command_) continue;
+      note_motion();
     }
     if (searching()) {
       const bool drilling =

@@ -26,6 +26,7 @@ enum class FlowState {
   waiting,    ///< the text has to arrive first: do not step, or the motion would depend on when it does
   command,    ///< pending() needs the axes at rest and is carried out by the caller
   block_end,  ///< single block: the block's motion is all there is
+  loop,       ///< lines_of_loop and more lines without a motion: at rest read_on() continues with them
   found,      ///< the line to start from comes next: executing() and position() are the state it begins in
   end,        ///< program finished
   alarm,      ///< alarm_number(), alarm_text()
@@ -43,6 +44,10 @@ struct Entry {
   RestartPoint restart;
   std::uint32_t line = 0;  ///< from 1; 0 = none
 };
+
+/// Lines without a motion before which motion does not go on; behind them the path ends with a stop, since
+/// the program may repeat them for ever. Fewer than can be read while the lead lasts.
+inline constexpr std::uint64_t lines_of_loop = 20000;
 
 class ProgramFlow {
  public:
@@ -79,6 +84,12 @@ class ProgramFlow {
     auxiliaries_.pass(command_);
     have_command_ = false;
   }
+  /// FlowState::loop: the next fill() reads some thousand lines more.
+  void read_on() { most_lines_ = lines_without_motion() + lines_per_read; }
+  /// Read since the newest command that moves an axis or lets time pass.
+  std::uint64_t lines_without_motion() const { return interpreter_.lines() - lines_at_motion_; }
+  /// The lines being read may repeat for ever.
+  bool loops() const { return lines_without_motion() >= lines_of_loop; }
   /// Single block: the next block may begin.
   void next_block() { block_line_ = 0; }
 
@@ -136,7 +147,9 @@ class ProgramFlow {
   bool text_missing() const { return text_missing_; }
 
  private:
+  static constexpr std::uint64_t lines_per_read = 8000;
   enum class Search : std::uint8_t { none, restart, line };
+  void note_motion();
   FlowState push_move();
   /// Full: motion may have the pending move. Waiting: the guard has not finished. Else alarm.
   FlowState ask_guard(const AxisValues& from);
@@ -166,6 +179,8 @@ class ProgramFlow {
   Entry entry_;
   Search search_ = Search::none;
   bool tapping_ = false, in_hole_ = false, refused_ = false, text_missing_ = false;
+  std::uint64_t lines_at_motion_ = 0, most_lines_ = lines_of_loop;
+  AxisValues place_{};  // where the newest motion ends
   std::vector<SkipResult> skips_;
   std::size_t skips_read_ = 0;
 

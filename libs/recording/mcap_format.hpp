@@ -148,4 +148,23 @@ class RecordReader {
   bool ok_ = true;
 };
 
+inline Schema read_schema(RecordReader& in) {
+  Schema schema;
+  schema.id = in.number<std::uint16_t>();
+  schema.name = in.text();
+  schema.encoding = in.text();
+  schema.data = in.text();
+  return schema;
+}
+
+inline Channel read_channel(RecordReader& in) {
+  Channel channel;
+  channel.id = in.number<std::uint16_t>();
+  channel.schema = in.number<std::uint16_t>();
+  channel.topic = in.text();
+  channel.encoding = in.text();
+  channel.metadata = in.map();
+  return channel;
+}
+
 }  // namespace trunnion::recording

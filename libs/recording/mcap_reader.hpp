@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a recording from its beginning, whole or cut off.
+// Reads a recording from its beginning: whole, cut off, or around what is damaged.
 #pragma once
 
 #include <map>
 #include <memory>
+#include <vector>
 
-#include "recording/mcap_format.hpp"
+#include "recording/damage.hpp"
+#include "recording/mcap_index.hpp"
 
 namespace trunnion::recording {
 
@@ -19,13 +21,13 @@ struct MessageView {
 
 enum class Ending : std::uint8_t {
   none,      ///< there may be more
-  complete,  ///< the data end record was found
-  cut_off,   ///< the file ends in the middle of a record: everything before was delivered
-  damaged,   ///< not a recording, or a record that contradicts itself or its checksum
+  complete,  ///< the file is whole and agrees with its checksums
+  cut_off,   ///< the file ends before its end: everything before was delivered
+  damaged,   ///< not a recording, or damages() names what contradicts itself or its checksum
 };
 
-/// Trusts no length: memory stays below `largest_record` bytes per record and chunk for any content of the
-/// file.
+/// Trusts no length: memory stays below a few times `largest_record` bytes for any content of the file.
+/// Behind a damaged chunk it goes on with the next one, which the index at the end of a whole file names.
 class Reader {
  public:
   /// `source` must outlive the reader.
@@ -40,29 +42,43 @@ class Reader {
   Ending ending() const { return ending_; }
   /// Why it ended other than complete, one line; else empty.
   const std::string& problem() const { return problem_; }
-  /// What has been read of them so far; topics and metadata of our own recorder precede every message.
-  const std::map<std::uint16_t, Schema>& schemas() const { return schemas_; }
-  const std::map<std::uint16_t, Channel>& channels() const { return channels_; }
+  /// What could not be read so far, in the order in which it was found.
+  const std::vector<Damage>& damages() const { return damages_; }
+  /// Of a whole file all of them, else what has been read of them so far; topics and metadata of our own
+  /// recorder precede every message.
+  const std::map<std::uint16_t, Schema>& schemas() const { return index_.schemas; }
+  const std::map<std::uint16_t, Channel>& channels() const { return index_.channels; }
   const std::vector<Metadata>& metadata() const { return metadata_; }
 
  private:
   struct Decompressor;
+  bool has_index() const { return index_.state == McapIndex::State::known; }
+  std::uint64_t limit() const;
   bool end(Ending ending, std::string problem);
-  bool read_record();
-  bool open_chunk(std::span<const std::uint8_t> content);
-  bool parse(Opcode opcode, std::span<const std::uint8_t> content, MessageView& message, bool& is_message);
+  bool skip(Ending without_index, std::string problem);
+  bool load(std::uint64_t offset, std::uint64_t length);
+  bool load_record();
+  void load_chunk();
+  void end_data();
+  std::string open_chunk(std::span<const std::uint8_t> content);
+  const char* parse(Opcode opcode, std::span<const std::uint8_t> content, MessageView& message);
+  bool next_of_file(MessageView& message);
+  bool next_of_chunk(MessageView& message);
 
   Source& source_;
   std::uint64_t largest_record_;
   std::unique_ptr<Decompressor> decompressor_;
-  std::uint64_t offset_ = 0;
+  McapIndex index_;
+  std::size_t next_chunk_ = 0;            // of the index
+  std::uint64_t begin_ = 0, offset_ = 0;  // of the record that was read, and of the next one
+  std::uint32_t crc_ = 0;                 // of everything before the data end record
   Bytes record_, chunk_;
   Opcode opcode_ = Opcode::header;
   std::span<const std::uint8_t> in_chunk_;  // what is left of it
+  Damage chunk_place_;                      // what is missing when the chunk cannot be read
   Ending ending_ = Ending::none;
   std::string problem_;
-  std::map<std::uint16_t, Schema> schemas_;
-  std::map<std::uint16_t, Channel> channels_;
+  std::vector<Damage> damages_;
   std::vector<Metadata> metadata_;
 };
 

@@ -183,6 +183,7 @@ Capture read_capture(recording::Source& source, std::uint16_t channel) {
   while (reader.next(message)) collector.take(message);
   collector.finish();
   out.complete = reader.ending() == recording::Ending::complete;
+  out.damaged = !reader.damages().empty();
   if (!out.complete) out.problem = reader.problem();
   for (const auto& metadata : reader.metadata())
     if (metadata.name == "trunnion") out.metadata.insert(metadata.values.begin(), metadata.values.end());

@@ -69,7 +69,7 @@ struct Capture {
   std::map<std::string, std::string> metadata;
   std::uint64_t starved = 0;  ///< periods during the recording
   std::string problem;        ///< of the recording
-  bool complete = false;
+  bool complete = false, damaged = false;
 };
 
 /// Reads everything of `channel`. Messages that do not decode are left out and named in `problem`.

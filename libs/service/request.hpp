@@ -4,15 +4,18 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <map>
 #include <optional>
 #include <random>
+#include <string>
 #include <thread>
 
 #include "bus/bus.hpp"
 #include "service/node.hpp"
+#include "text/quantity.hpp"
 
 namespace trunnion::service {
 
@@ -21,6 +24,14 @@ inline std::uint64_t make_client_id() {
   std::random_device device;
   return (static_cast<std::uint64_t>(device()) << 32) ^ device() ^
          (static_cast<std::uint64_t>(getpid()) << 16);
+}
+
+/// Why `who` has not answered, of RequestClient::connected(): one line.
+inline std::string silence(const std::string& who, double seconds, int connected) {
+  return who + " does not answer within " + text::quantity(seconds, "s") +
+         (connected == 0   ? ": it is not connected, see `trunnion status`"
+          : connected == 1 ? ": it is connected"
+                           : ": " + std::to_string(connected) + " of its kind are connected");
 }
 
 template <class Request, class Reply>
@@ -53,6 +64,8 @@ class RequestClient {
     return std::nullopt;
   }
   void abandon() { pending_.reset(); }
+  /// How many processes answer requests of this kind and are connected with this one.
+  int connected() { return std::min(writer_.matched(), reader_.matched()); }
 
   /// Blocks up to `timeout` seconds: for command-line tools. `elsewhere` may know the reply of the request
   /// too.

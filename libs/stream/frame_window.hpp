@@ -37,7 +37,9 @@ class FrameWindow {
       return same_values(slot.frame, frame) ? Arrival::duplicate : Arrival::differs;
     // A writer that matches late sends its whole history, which begins long ago and must not replace what is
     // still to be taken.
-    if (slot.used && std::pair(slot.frame.epoch, slot.frame.first) > std::pair(frame.epoch, frame.first))
+    const bool blocks = epoch_ != 0 && is_beyond(slot.frame.epoch) && !is_beyond(frame.epoch);
+    if (slot.used && !blocks &&
+        std::pair(slot.frame.epoch, slot.frame.first) > std::pair(frame.epoch, frame.first))
       return Arrival::stale;
     if (frame.starts &&
         (frame.epoch > start_epoch_ || (frame.epoch == start_epoch_ && frame.first > start_first_))) {
@@ -67,10 +69,26 @@ class FrameWindow {
     return true;
   }
 
-  /// Continues at `cycle` of `epoch`, for a process that has just started.
+  /// Continues at `cycle` of `epoch`. What is here of epochs that cannot follow is forgotten: their frames
+  /// would stand in the way of those that come.
   void set_next(std::uint32_t epoch, std::uint64_t cycle) {
     epoch_ = epoch;
     next_ = cycle;
+    if (start_epoch_ != 0 && is_beyond(start_epoch_)) start_taken();
+    if (!is_beyond(newest_epoch_)) return;
+    newest_epoch_ = epoch, newest_ = cycle;
+    for (auto& slot : slots_) slot.used = slot.used && !is_beyond(slot.frame.epoch);
+  }
+  /// The same, and everything that is here is forgotten.
+  void start_over(std::uint32_t epoch, std::uint64_t cycle) {
+    for (auto& slot : slots_) slot.used = false;
+    start_taken();
+    newest_epoch_ = epoch, newest_ = cycle;
+    set_next(epoch, cycle);
+  }
+  /// No stream that is at `cycle` of `epoch` leads to next().
+  bool is_astray(std::uint32_t epoch, std::uint64_t cycle) const {
+    return std::uint64_t{epoch_} > std::uint64_t{epoch} + 1 || next_ > cycle + slots * most_cycles;
   }
 
   /// The batch that starts at next(), or null.
@@ -123,7 +141,10 @@ class FrameWindow {
     Frame frame;
     bool used = false;
   };
+  static constexpr std::uint64_t most_cycles = 64;  // of one batch
   void start_taken() { start_epoch_ = 0, start_first_ = 0; }
+  // A channel begins one epoch after the other, each when the drive has answered for the one before.
+  bool is_beyond(std::uint32_t epoch) const { return std::uint64_t{epoch} > std::uint64_t{epoch_} + 1; }
 
   std::vector<Slot> slots_;
   std::uint32_t epoch_ = 0, newest_epoch_ = 0, start_epoch_ = 0;

@@ -15,6 +15,7 @@
 #include "machine/stream_settings.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
+#include "stream/frame_reader.hpp"
 #include "stream/frame_window.hpp"
 #include "stream/stage_core.hpp"
 
@@ -73,9 +74,15 @@ class StageService : public service::Service {
       have_feedback_ = true;
       on_feedback(newest_feedback_);
     }
+    return_to_the_drive();
     while (reader_->take(frame_)) {
       ++frames_in_;
       const auto channel = frame_.channel;
+      if (channel >= node_.options().machine.channels) {
+        reader_->refuse("channel: " + std::to_string(channel) + ", the machine has " +
+                        std::to_string(node_.options().machine.channels));
+        continue;
+      }
       auto& window = lane(channel).window;
       if (window.put(frame_) == Arrival::differs)
         raise_difference(node_.alarms(), *window.first_arrival(frame_), frame_);
@@ -88,6 +95,13 @@ class StageService : public service::Service {
   double period() const override { return 0.02; }
   bool axis_concerns(std::uint16_t axis, std::uint16_t channel) const override {
     return parameters_.newest() && machine::axis_moves_with(*parameters_.newest(), axis, channel);
+  }
+
+  // Frames that no channel wrote may have led it to where the stream never comes.
+  void alarms_reset(std::uint16_t) override {
+    if (!reader_) return;
+    present_reader_.emplace(present_reader(node_.bus(), topics::feedback_frame));
+    present_until_ = service::monotonic_seconds() + 2;
   }
 
   service::Health health() const override {
@@ -147,8 +161,8 @@ class StageService : public service::Service {
     auto out = out_topic_;
     if (standby_) out.name = standby_topic.c_str();
     writer_.emplace(node_.bus().writer(out));
-    feedback_reader_.emplace(node_.bus().reader(topics::feedback_frame));
-    reader_.emplace(node_.bus().reader(in_topic_));
+    feedback_reader_.emplace(node_.bus(), topics::feedback_frame);
+    reader_.emplace(node_.bus(), in_topic_);
     for (const auto& entry : services)
       if (entry.service == "channel") lane(static_cast<std::uint16_t>(entry.channel));
   }
@@ -203,7 +217,7 @@ class StageService : public service::Service {
     for (const auto& [channel, lane] : lanes_) wanted = wanted || !lane.in_step;
     if (wanted && !feedback_reader_) {
       newest_feedback_.channels.clear();
-      feedback_reader_.emplace(node_.bus().reader(topics::feedback_frame));
+      feedback_reader_.emplace(node_.bus(), topics::feedback_frame);
     } else if (!wanted && feedback_reader_) {
       feedback_reader_.reset();
     }
@@ -215,16 +229,36 @@ class StageService : public service::Service {
     return result;
   }
 
-  const idl::stream::ChannelEcho* echo(std::uint16_t channel) const {
-    for (const auto& echo : newest_feedback_.channels)
+  static const idl::stream::ChannelEcho* echo_of(const idl::stream::FeedbackFrame& feedback,
+                                                 std::uint16_t channel) {
+    for (const auto& echo : feedback.channels)
       if (echo.channel == channel) return &echo;
     return nullptr;
+  }
+
+  // After a reset: a channel that owes nothing starts from where the drive is, and a lane that is elsewhere
+  // or waits in vain for parameters would not find its start.
+  void return_to_the_drive() {
+    if (!present_reader_) return;
+    while (present_reader_->take(present_))
+      for (auto& [channel, lane] : lanes_) {
+        const auto* cut = echo_of(present_, channel);
+        if (cut == nullptr || cut->active) continue;
+        if (!lane.window.is_astray(cut->epoch, cut->next) &&
+            !node_.alarms().active(alarm::revision_unknown, channel))
+          continue;
+        lane.window.start_over(cut->epoch, cut->next);
+        lane.in_step = true;
+        unknown_since_ = 0;
+        node_.alarms().clear(alarm::revision_unknown, channel);
+      }
+    if (service::monotonic_seconds() > present_until_) present_reader_.reset();
   }
 
   // A process that has just started, or has fallen behind, continues from the consistent cut in the drive's
   // feedback as soon as it has the input that follows it.
   void join(std::uint16_t channel, Lane& lane) {
-    const auto* cut = echo(channel);
+    const auto* cut = echo_of(newest_feedback_, channel);
     if (cut == nullptr) return;
     if (!cut->active) {  // nothing moves: the first frame of the next motion will carry the state
       lane.window.set_next(cut->epoch, cut->next);
@@ -324,18 +358,19 @@ class StageService : public service::Service {
   bus::Topic<In> in_topic_;
   bus::Topic<idl::stream::AxisFrame> out_topic_;
   MakeCore make_core_;
-  std::optional<bus::Reader<In>> reader_;
-  std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_reader_;
+  std::optional<FrameReader<In>> reader_;
+  std::optional<FrameReader<idl::stream::FeedbackFrame>> feedback_reader_;
+  std::optional<FrameReader<idl::stream::FeedbackFrame>> present_reader_;  // for a while after a reset
   std::optional<bus::Writer<idl::stream::AxisFrame>> writer_;
   bus::Writer<idl::stream::StageProgress> progress_writer_;
   std::map<std::uint16_t, Lane> lanes_;
   FeedbackWindow feedback_;
   In frame_;
   idl::stream::AxisFrame out_;
-  idl::stream::FeedbackFrame newest_feedback_;
+  idl::stream::FeedbackFrame newest_feedback_, present_;
   bool have_feedback_ = false;
   std::uint64_t frames_in_ = 0, frames_out_ = 0, frames_lost_ = 0;
-  double unknown_since_ = 0, feedback_until_ = 0;
+  double unknown_since_ = 0, feedback_until_ = 0, present_until_ = 0;
   std::uint64_t ahead_ = 0;
   bool replicated_ = false, standby_ = false;
   std::string fault_;

@@ -18,6 +18,7 @@ using idl::channel::ChannelRequest;
 
 constexpr std::size_t target_bytes = 256;  // as in gateway.idl: a longer one is cut off
 constexpr unsigned not_read_to_its_end = 413;
+constexpr unsigned still_unanswered = 202, given_up = 504;  // a reply that came later is none
 
 template <class T, class Act>
 bool act_on(const StoredMessage& message, const char* handle, Act act) {
@@ -104,7 +105,7 @@ class Plan {
 
  private:
   struct Line {
-    std::uint64_t begin = 0;
+    std::uint64_t begin = 0, written = 0;
     OperatorRequest request;
   };
 
@@ -116,7 +117,7 @@ class Plan {
                                          [&](const auto& frame) { plan_.outputs.cycles += frame.count; });
     } else if (message.topic->handle == "operator_request" && bus::decode(message.cdr, line)) {
       if (auto request = again(line))
-        lines_.push_back({begin_of(line, message.time), std::move(*request)});
+        lines_.push_back({begin_of(line, message.time), message.time, std::move(*request)});
       else
         ++plan_.left_out;
     } else {
@@ -164,14 +165,14 @@ class Plan {
   void weave() {
     auto next = lines_.begin();
     for (const auto* message : feeds_) {
-      for (; next != lines_.end() && next->begin < message->time; ++next) ask(std::move(next->request));
+      for (; next != lines_.end() && next->begin < message->time; ++next) ask(std::move(*next));
       const bool apart = is_apart(*message);
       if (apart) sample();
       plan_.steps.push_back({GatewayStep::Kind::feed, message, nullptr});
       seen_ = false;
       if (++fed_ % sample_every_ == 0 || apart) sample();
     }
-    for (; next != lines_.end(); ++next) ask(std::move(next->request));
+    for (; next != lines_.end(); ++next) ask(std::move(*next));
     sample();
   }
 
@@ -193,13 +194,16 @@ class Plan {
     return other;
   }
 
-  void ask(OperatorRequest request) {
+  void ask(Line asked) {
     sample();
+    auto& request = asked.request;
     const auto& line = request.line;
+    const bool unanswered = line.status == still_unanswered || line.status == given_up;
     for (std::uint32_t i = 0; i < line.requests; ++i) {
       const Asker asker{line.client, line.number + i};
       const auto reply = replies_.find(asker);
-      request.replies.push_back(reply == replies_.end() ? std::nullopt : std::optional(*reply->second));
+      const bool came = reply != replies_.end() && !(unanswered && reply->second->time > asked.written);
+      request.replies.push_back(came ? std::optional(*reply->second) : std::nullopt);
     }
     plan_.requests.push_back(std::move(request));
     plan_.steps.push_back({GatewayStep::Kind::ask, nullptr, &plan_.requests.back()});

@@ -86,6 +86,9 @@ void ShownState::observe(const StoredMessage& message) {
       };
       commanded_ = row(feedback.commanded);
       actual_ = row(feedback.actual);
+      executed_ = true;
+    } else if (!executed_) {
+      commanded_ = actual_ = feedback.position;
     }
     drive_ = {{"executed", feedback.first + feedback.count},
               {"tick", feedback.tick},

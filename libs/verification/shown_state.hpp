@@ -47,7 +47,8 @@ class ShownState {
   bus::Json cluster_, drive_, plc_, measurement_, measurement_result_;
   idl::service::Cluster plan_;
   idl::stream::FeedbackFrame feedback_;
-  std::vector<double> commanded_, actual_;  ///< the newest row
+  std::vector<double> commanded_, actual_;  ///< the newest row; before there is one, where the axes stand
+  bool executed_ = false;                   ///< there was a row
   std::vector<std::uint16_t> columns_;
 };
 

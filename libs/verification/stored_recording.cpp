@@ -41,6 +41,7 @@ StoredRecording load_recording(recording::Source& source, const std::set<std::st
     if (metadata.name == "trunnion") out.metadata.insert(metadata.values.begin(), metadata.values.end());
   out.complete = reader.ending() == recording::Ending::complete;
   out.problem = reader.problem();
+  out.damages = reader.damages();
   return out;
 }
 

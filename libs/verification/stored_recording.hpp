@@ -22,9 +22,10 @@ struct StoredMessage {
 struct StoredRecording {
   std::vector<StoredMessage> messages;  ///< in the order of the file; only of known topics and types
   std::map<std::string, std::string> metadata;
-  std::set<std::string> foreign;  ///< topics this contract does not have, or has with another type
-  bool complete = false;          ///< the file has its end
-  std::string problem;            ///< why it is not complete, one line
+  std::set<std::string> foreign;           ///< topics this contract does not have, or has with another type
+  bool complete = false;                   ///< the file has its end
+  std::string problem;                     ///< why it is not complete, one line
+  std::vector<recording::Damage> damages;  ///< what of the file could not be read
 };
 
 enum class Known { same, other_type, unknown_topic };
@@ -33,7 +34,7 @@ enum class Known { same, other_type, unknown_topic };
 Known known_topic(const recording::Channel& channel,
                   const std::map<std::uint16_t, recording::Schema>& schemas, const bus::TopicEntry*& entry);
 
-/// Everything up to the last whole chunk. With `topics` (handles or names) only those.
+/// Every whole chunk. With `topics` (handles or names) only those.
 StoredRecording load_recording(recording::Source& source, const std::set<std::string>& topics = {});
 /// The same from a file; throws std::runtime_error naming it when it cannot be opened or is no recording.
 StoredRecording load_recording(const std::string& path, const std::set<std::string>& topics = {});

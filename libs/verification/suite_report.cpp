@@ -129,6 +129,7 @@ void judge(SuiteResult& result, int status, const std::string& output, const std
     return;
   }
   result.problem = string_at(result.report, "problem");
+  if (result.problem.empty()) result.problem = string_at(result.report, "error");
   if (const auto* first = first_of(result); first != nullptr && result.problem.empty())
     result.problem = "first difference: " + headline(*first);
   std::string missing;

@@ -32,14 +32,36 @@ class Observer {
     } else if (topic.handle == "parameter_set") {
       if (!bus::decode(cdr, parameters_)) return false;
       out_.revisions.insert(parameters_.revision);
+    } else if (topic.handle == "cluster") {
+      return bus::decode(cdr, cluster_);
+    } else if (topic.handle == "snapshot_request") {
+      asked_ = true;
+    } else if (topic.handle == "service_snapshot") {
+      if (!bus::decode(cdr, snapshot_)) return false;
+      if (snapshot_.kind != idl::service::SnapshotKind::LATER)
+        given_.insert(snapshot_.instance);
+      else
+        reasons_[snapshot_.instance] = ": " + snapshot_.detail;
     }
     return true;
+  }
+  // A recorder asks when the recording has begun.
+  void finish() {
+    if (!asked_) return;
+    for (const auto& service : cluster_.services)
+      if (service.pid != 0 && !given_.contains(service.instance))
+        out_.without_state.push_back(service.service + reasons_[service.instance]);
   }
 
  private:
   Summary& out_;
   idl::service::Announcement announcement_;
   idl::parameters::ParameterSet parameters_;
+  idl::service::Cluster cluster_;
+  idl::service::ServiceSnapshot snapshot_;
+  std::set<std::uint32_t> given_;
+  std::map<std::uint32_t, std::string> reasons_;
+  bool asked_ = false;
 };
 
 const char* text_of(Known known) {
@@ -107,6 +129,7 @@ Summary summarize(recording::Source& source) {
     tally.add(t.entry->handle, view.data);
     if (!observer.take(*t.entry, view.data)) ++s.undecodable;
   }
+  observer.finish();
   for (auto& [id, t] : tracked) out.topics.push_back(std::move(t.summary));
   std::sort(out.topics.begin(), out.topics.end(),
             [](const auto& a, const auto& b) { return a.topic < b.topic; });
@@ -125,6 +148,7 @@ Summary summarize(recording::Source& source) {
   out.same_contract = contract != out.metadata.end() && contract->second == topics::contract_hash;
   out.complete = reader.ending() == recording::Ending::complete;
   out.problem = reader.problem();
+  out.damages = reader.damages();
   return out;
 }
 
@@ -133,10 +157,12 @@ std::string text_of(const Summary& s) {
   for (const auto& [name, value] : s.metadata) text += line("%-10s %s\n", name.c_str(), value.c_str());
   if (!s.same_contract) text += line("           this program's contract is %s\n", topics::contract_hash);
   text += line("%-10s %" PRIu64 " in %.3f s\n", "messages", s.messages, s.seconds());
-  if (!s.complete) text += "cut off    " + s.problem + "\n";
+  for (const auto& damage : s.damages) text += "damaged    " + recording::text_of(damage) + "\n";
+  if (!s.complete && s.damages.empty()) text += "cut off    " + s.problem + "\n";
   std::string revisions;
   for (const auto r : s.revisions) revisions += (revisions.empty() ? "" : ", ") + std::to_string(r);
   if (!revisions.empty()) text += line("%-10s %s\n", "parameters", ("revision " + revisions).c_str());
+  for (const auto& name : s.without_state) text += "no state   " + name + "\n";
   text += line("\n%-24s %10s %12s %12s  %s\n", "topic", "messages", "bytes", "per second", "type");
   for (const auto& t : s.topics) {
     text += line("%-24s %10" PRIu64 " %12" PRIu64 " %12.1f  %s", t.handle.c_str(), t.messages, t.bytes,
@@ -163,7 +189,13 @@ std::string text_of(const Summary& s) {
 }
 
 bus::Json json_of(const Summary& s) {
-  bus::Json topics = bus::Json::array(), streams = bus::Json::array();
+  bus::Json topics = bus::Json::array(), streams = bus::Json::array(), damages = bus::Json::array();
+  for (const auto& damage : s.damages)
+    damages.push_back({{"begin", damage.begin},
+                       {"end", damage.end},
+                       {"first_time", damage.first_time},
+                       {"last_time", damage.last_time},
+                       {"what", damage.what}});
   for (const auto& t : s.topics)
     topics.push_back({{"topic", t.topic},
                       {"handle", t.handle},
@@ -188,11 +220,18 @@ bus::Json json_of(const Summary& s) {
                        {"repeated", c.repeated},
                        {"gaps", gaps}});
   }
-  return {{"metadata", s.metadata},   {"same_contract", s.same_contract},
-          {"complete", s.complete},   {"problem", s.problem},
-          {"messages", s.messages},   {"seconds", s.seconds()},
-          {"revisions", s.revisions}, {"topics", topics},
-          {"streams", streams},       {"services", s.participants}};
+  return {{"metadata", s.metadata},
+          {"same_contract", s.same_contract},
+          {"complete", s.complete},
+          {"problem", s.problem},
+          {"messages", s.messages},
+          {"seconds", s.seconds()},
+          {"revisions", s.revisions},
+          {"topics", topics},
+          {"streams", streams},
+          {"services", s.participants},
+          {"without_state", s.without_state},
+          {"damages", damages}};
 }
 
 }  // namespace trunnion::verification

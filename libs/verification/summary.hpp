@@ -38,11 +38,14 @@ struct Summary {
   bool same_contract = false;                   ///< as this program's
   bool complete = false;
   std::string problem;
+  std::vector<recording::Damage> damages;
   std::uint64_t messages = 0, first_time = 0, last_time = 0;
   std::vector<TopicSummary> topics;    ///< by handle
   std::vector<StreamSummary> streams;  ///< by topic in the order of the stream, channel and epoch
   std::set<std::string> participants;  ///< "service vendor version contract", as announced
   std::set<std::uint64_t> revisions;   ///< of the parameters
+  /// Services that were asked for their state and have not given it, with the reason when they said one.
+  std::vector<std::string> without_state;
   double seconds() const { return static_cast<double>(last_time - first_time) * 1e-9; }
 };
 

@@ -189,12 +189,7 @@ class Feeding {
   double began_ = 0, ended_ = 0;
 };
 
-}  // namespace
-
-VerifyResult verify(const VerifyOptions& options) {
-  auto recording = load_recording(options.recording);
-  drop_repetitions(recording.messages);
-  if (options.service == "gateway") return verify_gateway(options, recording);
+VerifyResult verify_service(const VerifyOptions& options, const StoredRecording& recording) {
   const auto plan = plan_verification(recording, options.service, options.channel);
 
   VerifyResult result;
@@ -225,6 +220,23 @@ VerifyResult verify(const VerifyOptions& options) {
   comparison.ignored.insert(plan.ignored.begin(), plan.ignored.end());
   result.difference = difference(plan.expected, produced, comparison);
   return result;
+}
+
+}  // namespace
+
+VerifyResult verify(const VerifyOptions& options) {
+  auto recording = load_recording(options.recording);
+  if (!recording.damages.empty()) throw std::runtime_error(options.recording + ": " + recording.problem);
+  drop_repetitions(recording.messages);
+  try {
+    auto result = options.service == "gateway" ? verify_gateway(options, recording)
+                                               : verify_service(options, recording);
+    result.cut_off = recording.problem;
+    return result;
+  } catch (const std::runtime_error& error) {
+    if (recording.complete) throw;
+    throw std::runtime_error(std::string(error.what()) + "; " + recording.problem);
+  }
 }
 
 }  // namespace trunnion::verification

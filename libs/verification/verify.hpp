@@ -25,6 +25,7 @@ struct VerifyOptions {
 
 struct VerifyResult {
   Difference difference;
+  std::string cut_off;  ///< where the recording ends too early; it was verified up to there
   std::string problem;  ///< that kept the service from answering everything, or an alarm; one line
   std::size_t inputs = 0, outputs = 0, unrecorded = 0;
   /// Of the gateway: requests over HTTP, lines of its journal that could not be sent again, and how often
@@ -38,7 +39,8 @@ struct VerifyResult {
 };
 
 /// The service is started in a domain of its own and stopped again, however this ends. Throws
-/// std::runtime_error when the recording cannot be used or the service cannot be started.
+/// std::runtime_error when the recording cannot be used, as one of which something is missing in the middle,
+/// or the service cannot be started.
 VerifyResult verify(const VerifyOptions& options);
 
 }  // namespace trunnion::verification

@@ -2,28 +2,21 @@
 #include "service.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/service_constants.hpp"
-#include "service/damage_alarm.hpp"
 #include "snapshot/fields.hpp"
-#include "storage/file.hpp"
-#include "storage/kept_file.hpp"
 #include "stream/stage_service.hpp"
-#include "variable_message.hpp"
-#include "variable_text.hpp"
 
 namespace trunnion::channel {
 namespace {
+constexpr auto most_frames = stream::FrameWindow<idl::stream::PathFrame>::slots;  // more than may be ahead
 constexpr double history_pause = 1.0;   // without feedback: longer than a drive that lives is ever silent
-constexpr double record_seconds = 0.2;  // between two records of the executed line
 constexpr double cycle_timeout = 3.0;   // of the service of a cycle, to say that it has the call
 constexpr double text_timeout = 0.5;    // without the text that motion waits for, before the alarm
+constexpr double longest_read = 0.004;  // of a loop without motion, and then a pause as long
 }  // namespace
 
 ChannelService::ChannelService(service::Node& node)
@@ -74,62 +67,11 @@ void ChannelService::read_bodies() {
   if (mode != machine::CollisionMode::off) core_.guard(mode, collision_guard::load_bodies_text(directory));
 }
 
-// A kept text of this channel; damage is an alarm. `part` tells its files apart.
-std::optional<std::string> ChannelService::read_file(const std::string& file, std::uint32_t part,
-                                                     const std::string& loss) {
-  using storage::KeptState;
-  const auto kept = storage::read_kept(file);
-  service::report_damage(node_.alarms(), part, file, kept, loss);
-  if (kept.state == KeptState::previous) storage::repair_kept(file, kept);
-  if (kept.state == KeptState::absent || kept.state == KeptState::unusable) return std::nullopt;
-  return kept.content;
-}
-
-// A file that cannot be understood is put aside and named by an alarm.
-void ChannelService::put_aside(const std::string& file, const std::string& problem) {
-  const auto channel = static_cast<std::uint32_t>(node_.options().channel);
-  node_.alarms().raise(alarm::storage_failed, channel, problem);
-  node_.alarms().release(alarm::storage_failed, channel);
-  for (const auto& generation : {file, file + storage::previous_suffix})
-    std::rename(generation.c_str(), (generation + storage::damaged_suffix).c_str());
-}
-
-void ChannelService::read_record() {
-  const auto text = read_file(record_file_, 0, "interrupted program and its line");
-  if (!text) return;
-  try {
-    kept_ = channel::read_record(*text, record_file_);
-    core_.set_interrupted(kept_);
-  } catch (const std::exception& e) {
-    put_aside(record_file_, e.what());
-  }
-}
-
-// The line is written now and then, the beginning and the end of a program at once.
-void ChannelService::keep_record() {
-  const double now = service::monotonic_seconds();
-  if (core_.program_under_way() == (kept_.line != 0) && core_.parts() == kept_.parts &&
-      core_.tool() == kept_.tool && now - kept_at_ < record_seconds)
-    return;
-  const auto program = core_.running_program();
-  if (program == kept_) return;
-  record_.put(write_record(program));
-  kept_ = program;
-  kept_at_ = now;
-  const auto error = record_.error();
-  const auto channel = static_cast<std::uint32_t>(node_.options().channel);
-  if (!error.empty())
-    node_.alarms().raise(alarm::storage_failed, channel, error);
-  else if (record_failed_)
-    node_.alarms().release(alarm::storage_failed, channel);
-  record_failed_ = !error.empty();
-}
-
 void ChannelService::watch_text() {
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
   const double now = service::monotonic_seconds();
   if (!core_.waits_for_text()) {
-    if (text_missing_since_ < 0) node_.alarms().release(alarm::text_late, channel);
+    if (text_missing_since_ < 0) node_.alarms().clear(alarm::text_late, channel);
     text_missing_since_ = 0;
   } else if (text_missing_since_ == 0) {
     text_missing_since_ = now;
@@ -138,76 +80,6 @@ void ChannelService::watch_text() {
                          "The program's text does not arrive: see the program service");
     text_missing_since_ = -1;  // the alarm is raised
   }
-}
-
-// It serves one process only: one that is killed leaves none, and the drive's cut is valid then. It has a
-// checksum and no generations.
-void ChannelService::read_hand_over() {
-  std::ifstream in(hand_over_file_, std::ios::binary);
-  if (!in) return;
-  std::ostringstream text;
-  text << in.rdbuf();
-  std::remove(hand_over_file_.c_str());
-  const auto name = std::filesystem::path(hand_over_file_).filename().string();
-  storage::Kept kept{storage::KeptState::unusable, "", 0, ""};
-  const auto whole = storage::unseal(name, text.str(), kept.problem);
-  HandOver from;
-  try {
-    if (whole && channel::read_hand_over(whole->content, hand_over_file_, boot_, from))
-      hand_over_ = std::move(from);
-  } catch (const std::exception& e) {
-    kept.problem = e.what();
-  }
-  if (!kept.problem.empty())
-    service::report_damage(node_.alarms(), 2, hand_over_file_, kept,
-                           "mode, modal codes, selected program and overrides");
-}
-
-void ChannelService::end() {
-  if (!core_.recovered()) return;
-  const auto left = core_.hand_over();
-  if (!left) return;
-  try {
-    const auto name = std::filesystem::path(hand_over_file_).filename().string();
-    storage::replace_file(hand_over_file_, storage::seal(name, 1, write_hand_over(*left, boot_)));
-  } catch (const storage::StorageError& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-  }
-}
-
-// Vacant variables are safer than wrong ones.
-void ChannelService::read_variables() {
-  const auto text = read_file(variables_file_, 1, "macro variables");
-  auto variables = std::make_unique<language::VariableStore>();
-  if (text) try {
-      channel::read_variables(*text, variables_file_, boot_, *variables);
-      core_.set_variables(*variables);
-    } catch (const std::exception& e) {
-      *variables = {};
-      put_aside(variables_file_, e.what());
-    }
-  publish_variables(*variables);
-}
-
-void ChannelService::publish_variables(const language::VariableStore& variables) {
-  variables_writer_.write(variable_message(variables, static_cast<std::uint16_t>(node_.options().channel)));
-}
-
-void ChannelService::save_variables() {
-  const auto* variables = core_.take_variables();
-  if (variables == nullptr) return;
-  const auto channel = static_cast<std::uint32_t>(node_.options().channel);
-  try {
-    const auto text = write_variables(*variables, boot_);
-    if (text != saved_variables_) {
-      storage::write_kept(variables_file_, text);
-      saved_variables_ = text;
-      node_.alarms().release(alarm::storage_failed, channel);
-    }
-  } catch (const storage::StorageError& e) {
-    node_.alarms().raise(alarm::storage_failed, channel, e.what());
-  }
-  publish_variables(*variables);  // what is published survives a kill
 }
 
 void ChannelService::change_tables() {
@@ -230,10 +102,14 @@ void ChannelService::watch_cycle() {
 void ChannelService::start_stream() {
   node_.bus().set_depth({stream::stream_depth(core_.machine().stream(node_.options().virtual_time), 1)});
   frame_writer_.emplace(node_.bus().writer(topics::path_frame));
-  auto& bus = node_.bus();
-  present_reader_.emplace(
-      bus.backend().reader(bus::describe(topics::feedback_frame), {false, 0}, &bus.signal()));
-  feedback_reader_.emplace(bus.reader(topics::feedback_frame));
+  present_reader_.emplace(stream::present_reader(node_.bus(), topics::feedback_frame));
+  feedback_reader_.emplace(node_.bus(), topics::feedback_frame);
+}
+
+void ChannelService::tell_unreferenced() {
+  std::set<std::uint16_t> axes;
+  for (const auto& [instance, number, axis] : unreferenced_) axes.insert(static_cast<std::uint16_t>(axis));
+  core_.set_unreferenced(std::move(axes));
 }
 
 void ChannelService::watch_alarms() {
@@ -241,13 +117,10 @@ void ChannelService::watch_alarms() {
   bool news = false;
   while (alarm_reader_.take(alarm)) {
     const AlarmKey key{alarm.instance, alarm.number, alarm.part};
-    if (alarm.number == alarm::not_homed.number) {
-      const auto axis = static_cast<std::uint16_t>(alarm.part);
-      if (alarm.active)
-        unreferenced_.insert(axis);
-      else
-        unreferenced_.erase(axis);
-    }
+    if (alarm.active && alarm.number == alarm::not_homed.number)
+      unreferenced_.insert(key);
+    else
+      unreferenced_.erase(key);
     const bool holds = alarm.active && alarm.reaction != idl::service::Reaction::SHOW;
     if (holds)
       holding_alarms_[key] = "Alarm " + std::to_string(alarm.number) + ": " + alarm.text;
@@ -261,7 +134,7 @@ void ChannelService::watch_alarms() {
     news = true;
   }
   if (!news) return;
-  core_.set_unreferenced(unreferenced_);
+  tell_unreferenced();
   core_.set_hold(!holding_alarms_.empty() ? holding_alarms_.begin()->second
                  : plc_hold_              ? "Feed hold of the PLC"
                                           : "");
@@ -326,7 +199,7 @@ void ChannelService::answer_requests() {
   std::vector<std::pair<idl::channel::ChannelRequest, idl::channel::ChannelReply>> answers;
   while (requests_.take(request)) {
     if (request.channel != node_.options().channel) continue;
-    const auto answer = core_.handle(request);
+    const auto answer = core_.unusable() ? UnusableParameters::handle(core_, request) : core_.handle(request);
     answers.push_back(
         {request, {0, 0, answer.accepted, answer.alarm, answer.reason.substr(0, 256), core_.link().next()}});
   }
@@ -356,7 +229,10 @@ void ChannelService::fetch_text() {
 }
 
 void ChannelService::drain() {
-  if (parameters_.poll()) core_.set_parameters(parameters_.newest());
+  if (parameters_.poll()) {
+    core_.set_parameters(parameters_.newest());
+    unusable_.show(core_, node_.options().channel, node_.alarms());
+  }
   idl::parameters::ToolTable tools;
   while (tools_.take(tools)) core_.set_tools(tools), have_tools_ = true;
   idl::parameters::WorkOffsets offsets;
@@ -394,7 +270,7 @@ service::SnapshotAnswer ChannelService::snapshot() {
   bus::Json state = {{"core", core_.explicit_state(answer.detail)}};
   if (!answer.detail.empty()) return answer;
   state["holding_alarms"] = snapshot::written(holding_alarms_);
-  state["unreferenced"] = std::vector<std::uint16_t>(unreferenced_.begin(), unreferenced_.end());
+  state["not_homed"] = unreferenced_;
   state["plc_hold"] = plc_hold_;
   return {SnapshotKind::GIVEN, "", bus::text_of(state)};
 }
@@ -403,14 +279,15 @@ void ChannelService::continue_from_snapshot() {
   const auto& state = *node_.snapshot();
   core_.continue_from(state.at("core"));
   snapshot::read(state.at("holding_alarms"), holding_alarms_);
-  unreferenced_ = state.value("unreferenced", std::set<std::uint16_t>());
-  core_.set_unreferenced(unreferenced_);
+  unreferenced_ = state.value("not_homed", std::set<AlarmKey>());
+  tell_unreferenced();
   plc_hold_ = state.at("plc_hold").get<bool>();
   present_reader_.reset();
 }
 
 void ChannelService::pump() {
   drain();
+  if (core_.unusable()) answer_requests();
   if (!core_.configured() || !have_tools_ || !have_offsets_ || !have_programs_) return publish();
   if (!frame_writer_) {
     start_stream();
@@ -427,8 +304,10 @@ void ChannelService::pump() {
   answer_requests();
   fetch_text();
   core_.advance();
+  read_on();
   if (const auto request = core_.take_stream_request()) stream_writer_.write(*request);
-  while (core_.produce(frame_)) {
+  // Feedback that is ahead of the drive must not let a whole program be computed without a sign of life.
+  for (std::size_t n = 0; n < most_frames && core_.produce(frame_); ++n) {
     frame_writer_->write(frame_);
     ++frames_out_;
   }
@@ -439,16 +318,31 @@ void ChannelService::pump() {
   if (core_.recovered()) keep_record();
   watch_text();
   watch_cycle();
+  report_events();
+  publish();
+}
+
+void ChannelService::read_on() {
+  const double began = service::monotonic_seconds();
+  if (began < read_on_at_) return;
+  double now = began;
+  while (now - began < longest_read && core_.read_on()) now = service::monotonic_seconds();
+  read_on_at_ = now + (now - began);
+}
+
+// An event is news also when the same one is still shown: it is published each time.
+void ChannelService::report_events() {
+  const auto channel = static_cast<std::uint32_t>(node_.options().channel);
   for (const auto& event : core_.take_events()) {
-    const auto channel = static_cast<std::uint32_t>(node_.options().channel);
     if (event.alarm == nullptr) {
       node_.alarms().raise_number(event.number, channel, event.text, core_.link().executed());
-    } else {
-      node_.alarms().raise(*event.alarm, channel, event.text, core_.link().executed());
-      node_.alarms().release(*event.alarm, channel);
+      continue;
     }
+    node_.alarms().clear(*event.alarm, channel);
+    node_.alarms().raise(*event.alarm, channel, event.text, core_.link().executed());
+    node_.alarms().release(*event.alarm, channel);
   }
-  publish();
+  if (!core_.held_at_line()) node_.alarms().clear(alarm::search_done, channel);
 }
 
 void ChannelService::publish() {
@@ -464,13 +358,15 @@ service::Health ChannelService::health() const {
   using idl::service::Lifecycle;
   service::Health health;
   const bool tables = have_tools_ && have_offsets_ && have_programs_;
-  health.lifecycle = !core_.configured() || !tables ? Lifecycle::UNCONFIGURED
-                     : core_.recovered()            ? Lifecycle::ACTIVE
-                                                    : Lifecycle::INACTIVE;
-  health.detail = !core_.configured()  ? "waiting for parameters"
-                  : !tables            ? "waiting for tools, offsets and programs"
-                  : !core_.recovered() ? "waiting for the drive"
-                                       : "";
+  health.lifecycle = core_.unusable()                 ? Lifecycle::FAULT
+                     : !core_.configured() || !tables ? Lifecycle::UNCONFIGURED
+                     : core_.recovered()              ? Lifecycle::ACTIVE
+                                                      : Lifecycle::INACTIVE;
+  health.detail = core_.unusable()      ? core_.unusable()->text
+                  : !core_.configured() ? "waiting for parameters"
+                  : !tables             ? "waiting for tools, offsets and programs"
+                  : !core_.recovered()  ? "waiting for the drive"
+                                        : "";
   health.frames_in = frames_in_;
   health.frames_out = frames_out_;
   health.revision = core_.machine().revision();

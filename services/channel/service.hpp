@@ -10,7 +10,9 @@
 #include "service/request.hpp"
 #include "src/channel_core.hpp"
 #include "src/recorder_watch.hpp"
+#include "stream/frame_reader.hpp"
 #include "stream/replica_watch.hpp"
+#include "unusable_parameters.hpp"
 
 namespace trunnion::channel {
 
@@ -40,9 +42,12 @@ class ChannelService : public service::Service {
   void read_record();
   void keep_record();
   void watch_text();
+  void read_on();
+  void report_events();
   void watch_cycle();
   void read_hand_over();
   void watch_alarms();
+  void tell_unreferenced();
   void take_outputs(const idl::plc::Outputs& outputs);
   void watch_replicas();
   void watch_recorders();
@@ -51,6 +56,7 @@ class ChannelService : public service::Service {
   service::Node& node_;
   service::ParameterClient parameters_;
   ChannelCore core_;
+  UnusableParameters unusable_;
   service::RequestServer<idl::channel::ChannelRequest, idl::channel::ChannelReply> requests_;
   service::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_client_;
   service::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> table_client_;
@@ -72,20 +78,20 @@ class ChannelService : public service::Service {
   bus::Writer<CycleRequest> cycle_writer_;
   bus::Writer<idl::stream::StreamRequest> stream_writer_;
   std::optional<bus::Writer<idl::stream::PathFrame>> frame_writer_;
-  std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_reader_;
-  std::optional<bus::Reader<idl::stream::FeedbackFrame>>
+  std::optional<stream::FrameReader<idl::stream::FeedbackFrame>> feedback_reader_;
+  std::optional<stream::FrameReader<idl::stream::FeedbackFrame>>
       present_reader_;  ///< without history; until recovered
 
   using AlarmKey = std::array<std::uint32_t, 3>;
   std::map<AlarmKey, std::string> holding_alarms_;
-  std::set<std::uint16_t> unreferenced_;  ///< axes of alarm 115
+  std::set<AlarmKey> unreferenced_;  ///< alarms 115; those of two drives while one is swapped
   std::string hand_over_file_;
   std::optional<HandOver> hand_over_;  ///< from the process before
   std::string variables_file_, saved_variables_, boot_;
   std::string record_file_;
   RecordKeeper record_;
   RunningProgram kept_;
-  double kept_at_ = 0, text_missing_since_ = 0, cycle_unheard_since_ = -1;
+  double kept_at_ = 0, text_missing_since_ = 0, cycle_unheard_since_ = -1, read_on_at_ = 0;
   bool record_failed_ = false;
   bool plc_hold_ = false;
   bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;

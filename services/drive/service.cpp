@@ -24,6 +24,9 @@ namespace {
 // Of virtual time at once: 10 s at 1 ms. A timer of hours would keep the drive from its heartbeat and from
 // whatever starts meanwhile.
 constexpr int most_idle_steps = 10000;
+// Inputs are taken once in so many periods, and so often before the call returns: 2^15 periods.
+constexpr std::uint64_t periods_between_inputs = 256;
+constexpr int most_drained = 128;
 constexpr double idle_feedback = 0.1;      // s between two feedback messages while nothing moves
 constexpr std::size_t most_applied = 256;  // inputs that one feedback message can name
 
@@ -45,8 +48,7 @@ std::optional<Memory> memory_of_format_0(const std::string& path, const Memory& 
   return memory;
 }
 
-template <class T>
-std::uint64_t identity(const bus::Reader<T>& reader) {
+std::uint64_t identity(const auto& reader) {
   return static_cast<std::uint64_t>(reader.info().source_timestamp);
 }
 }  // namespace
@@ -79,7 +81,7 @@ void DriveService::start() {
   services_.emplace(node_.bus().reader(topics::service_state));
   alarms_.emplace(node_.bus().reader(topics::alarm));
   requests_.emplace(node_.bus().reader(topics::stream_request));
-  frames_.emplace(node_.bus().reader(topics::gantry_frame));
+  frames_.emplace(node_.bus(), topics::gantry_frame);
   next_tick_ = service::monotonic_seconds();
   send();
 }
@@ -89,26 +91,23 @@ void DriveService::restore() {
   using storage::KeptState;
   auto kept = encoders_.load();
   Memory memory;
-  if (const auto old = memory_of_format_0(encoders_.path(), core_.memory())) {
-    core_.restore(*old);
-    return;
-  }
-  if (kept.state == KeptState::absent) return;
   if (!kept.content.empty()) std::memcpy(&memory, kept.content.data(), sizeof memory);
-  if (kept.state == KeptState::good) {
-    core_.restore(memory);
-    if (!core_.unreferenced().empty())
-      kept.problem = "it has not been referenced since its position was lost, or is new";
-  } else {
+  const auto old = memory_of_format_0(encoders_.path(), core_.memory());
+  const bool damaged = !old && kept.state != KeptState::good && kept.state != KeptState::absent;
+  if (old)
+    core_.restore(*old);
+  else if (damaged)
     core_.restore_without_positions(memory);
-  }
+  else if (kept.state == KeptState::good)
+    core_.restore(memory);
+  if (!damaged) kept.problem = "it has not been referenced since its position was lost, or is new";
   unreferenced_ = core_.unreferenced();
   for (const auto& axis : unreferenced_)
     node_.alarms().raise(alarm::not_homed, axis.number,
                          "The position of axis " + axis.name + " is not known (" + kept.problem +
                              "): select mode REF, then reference return of the axis",
                          core_.next());
-  if (unreferenced_.empty() && kept.state != KeptState::good)
+  if (unreferenced_.empty() && damaged)
     service::report_damage(node_.alarms(), 0, encoders_.path(), {kept.state, "", 0, kept.problem},
                            "cycle numbers");
 }
@@ -311,16 +310,20 @@ void DriveService::run_virtual() {
   } else {
     waiting_since_ = 0;
   }
-  while (core_.can_step(give_up)) {
+  unfinished_ = false;
+  for (int drained = 0; core_.can_step(give_up);) {
     core_.step();
     waiting_since_ = 0;
     send_samples();
     if (core_.rows() >= frame_cycles_) send();
     // An emergency stop is not kept waiting by a long return to the path. The periods in which the servos
     // settle are few, and a start within them would make their number a matter of time.
-    if (core_.tick() % 256 == 0 &&
-        (core_.any_active() || core_.mode() != Mode::FOLLOWING || core_.needs_time()))
-      drain();
+    if (core_.tick() % periods_between_inputs != 0 ||
+        (!core_.any_active() && core_.mode() == Mode::FOLLOWING && !core_.needs_time()))
+      continue;
+    // A return from far away takes hours: between two calls the process shows that it lives.
+    if (unfinished_ = ++drained == most_drained; unfinished_) break;
+    drain();
   }
   for (int i = 0; i < most_idle_steps && time_passes(); ++i) {
     core_.step();
@@ -372,7 +375,7 @@ void DriveService::pump() {
 }
 
 double DriveService::period() const {
-  if (core_.configured() && node_.options().virtual_time && time_passes()) return 0;
+  if (core_.configured() && node_.options().virtual_time && (unfinished_ || time_passes())) return 0;
   if (!core_.configured() || node_.options().virtual_time) return 0.02;
   if (core_.hardware().is_clock()) return core_.period();
   return std::max(0.0, next_tick_ - service::monotonic_seconds());

@@ -11,6 +11,7 @@
 #include "src/drive_core.hpp"
 #include "src/emergency_press.hpp"
 #include "storage/retained_pair.hpp"
+#include "stream/frame_reader.hpp"
 
 namespace trunnion::drive {
 
@@ -50,7 +51,7 @@ class DriveService : public service::Service {
   std::optional<storage::RetainedPair> simulation_;  ///< what the hardware keeps besides positions
   std::vector<machine::AxisInfo> unreferenced_;      ///< axes of alarm 115
   DriveCore core_;
-  std::optional<bus::Reader<idl::stream::AxisFrame>> frames_;
+  std::optional<stream::FrameReader<idl::stream::AxisFrame>> frames_;
   std::optional<bus::Reader<idl::stream::StreamRequest>> requests_;
   std::optional<bus::Reader<idl::plc::Outputs>> outputs_;
   std::optional<bus::Reader<idl::plc::PanelRequest>> panel_;
@@ -72,6 +73,7 @@ class DriveService : public service::Service {
   double next_tick_ = 0, waiting_since_ = 0, last_sent_ = 0;
   service::RunningTime running_time_;  ///< by which the silence of others is measured
   bool changed_ = false;
+  bool unfinished_ = false;  ///< in virtual time: it goes on at the next call
 };
 
 }  // namespace trunnion::drive

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "file_storage.hpp"
-#include "parameter_store.hpp"
+#include "parameter_store/file_storage.hpp"
+#include "parameter_store/machine_defaults.hpp"
+#include "parameter_store/parameter_store.hpp"
 #include "service/node.hpp"
 #include "service/request.hpp"
 #include "standby_service.hpp"
 
 namespace trunnion::parameters {
-
-/// Parameters, tools and offsets as the machine's directory has them. Throws std::runtime_error with
-/// file:line:column.
-MachineDefaults defaults_of(const machine::MachineConfig& machine);
 
 class ParameterService : public service::Service {
  public:

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "private_storage.hpp"
+#include "parameter_store/private_storage.hpp"
 #include "service.hpp"
 
 namespace trunnion::parameters {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "file_storage.hpp"
-#include "parameter_store.hpp"
+#include "parameter_store/file_storage.hpp"
+#include "parameter_store/parameter_store.hpp"
 #include "service/comparison_clock.hpp"
 #include "service/node.hpp"
 

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <iostream>
 
+#include "channel_setup/channel_setup.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
+#include "machine/service_constants.hpp"
 #include "program_files.hpp"
 #include "service/damage_alarm.hpp"
 #include "snapshot/fields.hpp"
@@ -31,6 +33,17 @@ std::string in_directory(const std::string& directory, const char* name) {
   return directory + "/" + name;
 }
 
+bool usable_by_every_channel(const machine::Parameters& parameters, const machine::MachineConfig& machine) {
+  try {
+    for (const auto& entry : machine.services)
+      if (entry.service == machine::service::channel.name)
+        channel_setup::ChannelSetup(static_cast<std::uint16_t>(entry.channel)).configure(parameters);
+  } catch (const std::runtime_error&) {
+    return false;  // the channel says why
+  }
+  return true;
+}
+
 }  // namespace
 
 PlcService::PlcService(service::Node& node)
@@ -40,7 +53,7 @@ PlcService::PlcService(service::Node& node)
       round_writer_(node.options().state_directory + rounds_file),
       online_(node, core_, rounds_, boot_,
               [this](std::int64_t time) { applied(idl::stream::Input::ONLINE_REQUEST, time); }),
-      feedback_(node.bus().reader(topics::feedback_frame)),
+      feedback_(node.bus(), topics::feedback_frame),
       channels_(node.bus().reader(topics::channel_state)),
       requests_(node.bus().reader(topics::auxiliary_request)),
       alarms_(node.bus().reader(topics::alarm)),
@@ -153,6 +166,7 @@ void PlcService::continue_from_snapshot() {
 void PlcService::configure() {
   online_.each([&](PlcCore& core) { core.configure(*parameters_.newest(), node_.options().virtual_time); });
   rounds_.record(StepKind::PARAMETERS, parameters_.newest()->revision);
+  usable_ = usable_ || usable_by_every_channel(*parameters_.newest(), node_.options().machine);
   orders_.configure(*parameters_.newest());
   period_ = parameters_.newest()->integer(parameter::interpolation_cycle) * 1e-6;
   if (node_.snapshot() == nullptr || continued_) return;
@@ -285,6 +299,8 @@ void PlcService::publish(double now) {
   auto outputs = core_.outputs();
   const auto ahead = static_cast<std::uint64_t>(longest_ahead / period_);
   outputs.run_until_tick = std::min(outputs.run_until_tick, outputs.tick + ahead);
+  // A channel could not move them, and may describe another machine: the drives stay off.
+  if (!usable_) outputs.axis_enable.assign(outputs.axis_enable.size(), 0);
   auto same = last_outputs_;
   same.tick = outputs.tick;
   if (!node_.options().virtual_time) same.run_until_tick = outputs.run_until_tick;

@@ -15,6 +15,7 @@
 #include "service/parameter_client.hpp"
 #include "service/request.hpp"
 #include "standby_service.hpp"
+#include "stream/frame_reader.hpp"
 
 namespace trunnion::plc {
 
@@ -56,13 +57,14 @@ class PlcService : public service::Service {
   service::Node& node_;
   std::optional<RetainedMemory> retained_;
   std::string boot_, fault_;
+  bool usable_ = false;  ///< by every channel: there were such parameters
   service::ParameterClient parameters_;
   PlcCore core_;
   RoundRecorder rounds_;
   RoundWriter round_writer_;
   bus::Bytes round_bytes_;
   OnlineService online_;
-  bus::Reader<idl::stream::FeedbackFrame> feedback_;
+  stream::FrameReader<idl::stream::FeedbackFrame> feedback_;
   bus::Reader<idl::channel::ChannelState> channels_;
   bus::Reader<idl::channel::AuxiliaryRequest> requests_;
   bus::Reader<idl::service::Alarm> alarms_;

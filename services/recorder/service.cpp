@@ -27,7 +27,8 @@
 #include "recording_alarms.hpp"
 #include "service/node.hpp"
 #include "service/request.hpp"
-#include "snapshot_requests.hpp"
+#include "snapshot_client.hpp"
+#include "stream/whole_frame.hpp"
 #include "topic_source.hpp"
 
 namespace trunnion::recorder {
@@ -38,9 +39,7 @@ constexpr double cluster_seconds = 30;  // the same when a launcher publishes th
 // A wake-up for every message would cost as much processor time as a stage of the stream. Writers keep a
 // thousand batches.
 constexpr auto pause = std::chrono::milliseconds(20);
-constexpr double snapshot_seconds = 15;  // waiting time for the states of the services
-constexpr double repeat_seconds = 0.5;   // after which a service that has not answered is asked again
-constexpr int most_requests = 5;         // of the first states
+constexpr int most_requests = 5;  // of the first states
 constexpr auto request_pause = std::chrono::milliseconds(20);
 // After the start of a part: what was written into the part before has been taken by then.
 constexpr double part_pause = 0.05;
@@ -138,7 +137,8 @@ Sources::Drained Sources::drain(MessageQueue& queue) {
       message_.topic = static_cast<std::uint16_t>(i);
       message_.sequence = ++sequences_[i];
       message_.source_time = info.source_timestamp;
-      if (topics_[i].is_feedback() && bus::decode(message_.cdr, feedback_))
+      if (topics_[i].is_feedback() && bus::decode(message_.cdr, feedback_) &&
+          stream::fault_of(feedback_).empty())
         progress_.read(feedback_, message_.cdr.size());
       queue.push(message_);
     }
@@ -155,20 +155,14 @@ Sources::Drained Sources::drain(MessageQueue& queue) {
 // whose state reaches the reader created last has discovered all others. The machine's position is in the
 // feedback, so one message of it must have arrived. Without a launcher the list of services is unknown, and a
 // matched writer is sufficient.
-// Returns the services of the list.
-std::set<std::uint32_t> wait_for_writers(bus::Bus& bus, Sources& sources, MessageQueue& queue) {
-  auto clusters = bus.reader(topics::cluster);
+void wait_for_writers(bus::Bus& bus, Sources& sources, MessageQueue& queue, SnapshotClient& snapshots) {
   auto states = bus.reader(topics::service_state);
-  idl::service::Cluster cluster;
   idl::service::ServiceState state;
-  std::set<std::uint32_t> received, listed;
+  std::set<std::uint32_t> received;
   const double began = service::monotonic_seconds();
   while (stop_requested == 0) {
     sources.drain(queue);
-    while (clusters.take(cluster)) {
-      listed.clear();
-      for (const auto& service : cluster.services) listed.insert(service.instance);
-    }
+    const auto listed = snapshots.listed();
     while (states.take(state)) received.insert(state.instance);
     const bool known = !listed.empty();
     const bool all_received = std::includes(received.begin(), received.end(), listed.begin(), listed.end());
@@ -180,27 +174,21 @@ std::set<std::uint32_t> wait_for_writers(bus::Bus& bus, Sources& sources, Messag
       break;
     bus.signal().wait(0.002);
   }
-  return listed;
 }
 
 // The recording can be verified from these states on. A service that has not taken a setpoint which was
 // written before the recording began is asked again: it takes this setpoint after the state it gave. Of
 // replicas it takes the setpoints of one, so this may never come true.
-void take_snapshots(bus::Bus& bus, Sources& sources, MessageQueue& queue, SnapshotRequests& snapshots,
-                    const std::set<std::uint32_t>& services) {
-  const double until = service::monotonic_seconds() + snapshot_seconds;
+void take_snapshots(bus::Bus& bus, Sources& sources, MessageQueue& queue, SnapshotClient& snapshots) {
+  const double until = service::monotonic_seconds() + SnapshotRequests::late_seconds;
   for (int asked = 0; asked < most_requests; ++asked) {
     snapshots.ask();
-    double repeated = service::monotonic_seconds() + repeat_seconds;
-    while (stop_requested == 0 && !snapshots.answered_by(services) && service::monotonic_seconds() < until) {
-      if (service::monotonic_seconds() >= repeated) {
-        snapshots.repeat();
-        repeated += repeat_seconds;
-      }
+    while (stop_requested == 0 && !snapshots.requests().answered() && service::monotonic_seconds() < until) {
       sources.drain(queue);
       bus.signal().wait(0.002);
+      snapshots.run();
     }
-    if (stop_requested != 0 || sources.left_out_are_taken(snapshots)) return;
+    if (stop_requested != 0 || sources.left_out_are_taken(snapshots.requests())) return;
     std::this_thread::sleep_for(request_pause);
   }
 }
@@ -219,7 +207,8 @@ void report(const Losses& losses) {
               << " messages overwritten: the recorder had too little processor time\n";
 }
 
-void print_summary(const Options& options, const FileThread& thread, const Losses& losses) {
+void print_summary(const Options& options, const FileThread& thread, const Losses& losses,
+                   const std::vector<std::string>& without_state) {
   const auto& tally = thread.tally();
   const auto& destination = thread.destination();
   const auto& files = destination.files();
@@ -233,6 +222,7 @@ void print_summary(const Options& options, const FileThread& thread, const Losse
                          {"overwritten_messages", losses.overwritten},
                          {"unwritten_messages", destination.unwritten()},
                          {"problem", destination.problem()},
+                         {"without_state", without_state},
                          {"files", bus::Json::array()}};
     for (const auto& file : files)
       summary["files"].push_back(
@@ -262,6 +252,7 @@ void print_summary(const Options& options, const FileThread& thread, const Losse
   if (destination.unwritten() != 0)
     std::cout << "  " << destination.unwritten() << " messages not written: " << destination.problem()
               << "\n";
+  for (const auto& name : without_state) std::cout << "  no state of " << name << ": it has not answered\n";
   std::cout << std::flush;
 }
 
@@ -290,13 +281,13 @@ int record(const Options& options) {
   bus::Bus bus(options.vendor, options.network);
   std::optional<Sources> sources(std::in_place, bus, entries, &gathering);
   RecordingAlarms alarms(bus);
-  SnapshotRequests snapshots(bus);
+  SnapshotClient snapshots(bus);
   const bool verifiable = std::any_of(entries.begin(), entries.end(), [](const auto* entry) {
     return entry->description.name == topics::service_snapshot.name;
   });
-  const auto services = wait_for_writers(bus, *sources, queue);
+  wait_for_writers(bus, *sources, queue, snapshots);
   sources->begin(bus::source_time());
-  if (verifiable) take_snapshots(bus, *sources, queue, snapshots, services);
+  if (verifiable) take_snapshots(bus, *sources, queue, snapshots);
   std::cout << "recording " << options.output << std::endl;
 
   const double started = service::monotonic_seconds();
@@ -316,7 +307,7 @@ int record(const Options& options) {
     if (file.started() != parts && verifiable) snapshots.ask_at(now + part_pause);
     if (options.last > 0 && verifiable) snapshots.ask_at(now + std::max(1.0, options.last / 2));
     parts = file.started();
-    if (verifiable) snapshots.run(now);
+    if (verifiable) snapshots.run();
     if (drained != Sources::Drained::some) std::this_thread::sleep_for(pause);
   }
   // Messages that have arrived by now belong to the recording; a running stream must not extend it without
@@ -329,7 +320,7 @@ int record(const Options& options) {
   sources.reset();
   file.join();
   alarms.finish(file.destination().ended() ? file.destination().problem() : "");
-  print_summary(options, file, losses);
+  print_summary(options, file, losses, snapshots.requests().owing());
   report(losses);
   return losses.none() && file.destination().problem().empty() ? 0 : 1;
 }

@@ -84,7 +84,7 @@ class Model {
     process.policy.ended(now_);
     if (process.retiring) return;
     const bool replica = i < 2 && processes_[1 - i].active(now_);
-    process.fault.lose("killed", replica);
+    process.fault.lose("killed", replica ? Loss::redundant : Loss::holds);
     if (process.policy.gave_up()) process.fault.give_up("does not stay up");
   }
   void crash_always(std::size_t i, bool always) { processes_[i].stays = !always; }

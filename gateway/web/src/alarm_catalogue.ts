@@ -163,6 +163,11 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { c
     zh: { cause: "PLC 程序显示 messages.yaml 中反应为 axis_stop 的信息", remedy: "按文本处理，然后复位" },
     de: { cause: "Das SPS-Programm zeigt eine Meldung aus messages.yaml mit der Reaktion axis_stop", remedy: "Tun, was der Text sagt, dann zurücksetzen" },
   },
+  139: {
+    en: { cause: "The process has ended, was killed or is blocked; machine.yaml has 'gateway_loss: continue_with' and names the inputs that still hold and stop", remedy: "Use the panel; wait for the restart by the launcher, then reset the alarm; if it comes back, read the log of the gateway" },
+    zh: { cause: "进程已结束、被终止或阻塞；machine.yaml 中设有 'gateway_loss: continue_with'，并列出仍可进给保持和急停的输入", remedy: "使用操作面板；等待启动器重启该服务，然后复位报警；如果再次出现，查看网关的日志" },
+    de: { cause: "Der Prozess ist beendet, abgebrochen oder blockiert; machine.yaml hat 'gateway_loss: continue_with' und nennt die Eingänge, die weiterhin halten und stoppen", remedy: "Die Bedientafel benutzen; auf den Neustart warten, dann den Alarm zurücksetzen; kommt er wieder, das Log des Gateways lesen" },
+  },
   140: {
     en: { cause: "Position, work offset or tool length lead beyond the software limits (10a006, 10a007)", remedy: "Compare position and limits in the text; correct the program, the work offset or the tool length" },
     zh: { cause: "位置、工件偏置或刀具长度超出软件限位（10a006、10a007）", remedy: "比较文本中的位置和限位；更正程序、工件偏置或刀具长度" },

@@ -9,7 +9,7 @@ export interface Answer<T = unknown> {
   ok: boolean;
   status: number;
   body: T | undefined;
-  /** Why not, in words for the operator; empty when ok. */
+  /** Why not, or what is still to come of it, in words for the operator; empty when it is done. */
   reason: string;
   /** ETag of what was read, for putIfSame(). */
   tag?: string;
@@ -37,9 +37,12 @@ export interface OrderAnswer {
   body: unknown;
 }
 
+/** To a stop that the gateway repeats because the channel does not answer. */
+const stillUnanswered = 202;
+
 export function answerOf<T>(status: number, body: unknown): Answer<T> {
   const ok = status >= 200 && status < 300;
-  return { ok, status, body: body as T, reason: ok ? "" : reasonOf(status, body) };
+  return { ok, status, body: body as T, reason: ok && status !== stillUnanswered ? "" : reasonOf(status, body) };
 }
 
 /** Called when the gateway says that nobody is logged in. */

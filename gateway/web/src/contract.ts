@@ -6,6 +6,12 @@ export interface Accepted {
   cycle?: number;
 }
 
+export interface Repeated {
+  accepted: true;
+  /** What is repeated, until when, and what to do meanwhile; for display */
+  reason: string;
+}
+
 export type Mode = "AUTO" | "MDI" | "JOG" | "REF";
 
 export type RunState = "IDLE" | "RUNNING" | "HOLDING" | "HELD" | "WAITING" | "INTERRUPTED";

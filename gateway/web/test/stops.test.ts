@@ -38,3 +38,13 @@ test("feed hold is that of every channel, by the stream", async () => {
     [0, 1, 4].map((number) => `/api/channels/${number}/feed-hold`),
   );
 });
+
+test("a stop that the channel has not answered yet says what becomes of it", async () => {
+  const { notice, stop } = await import("../src/state/store");
+  const stopped = stop("Feed hold", "/api/channels/0/feed-hold");
+  const reason = "feed hold is repeated until channel 0 answers";
+  const { order } = OpenSocket.last.sent.at(-1)!;
+  OpenSocket.last.onmessage({ data: JSON.stringify({ answer: order, status: 202, body: { accepted: true, reason } }) });
+  expect(await stopped).toBe(true);
+  expect(notice.value).toEqual({ text: `Feed hold: ${reason}`, refused: true });
+});

@@ -9,23 +9,56 @@ namespace {
 using Taken = OperatingRight::Taken;
 const Station ann{"key of ann", "ann"}, bob{"key of bob", "bob"}, setter{"key of sam", "sam", true};
 
+/// An order that is accepted at once. Empty, or the name of who holds the right.
+std::string order(OperatingRight& right, const Station& station, double now) {
+  auto holder = right.order(station, now);
+  if (holder.empty()) right.answered(station.key, true, now);
+  return holder;
+}
+
 TEST(OperatingRight, TheFirstOrderTakesItAndTheOthersAreRefusedWithTheName) {
   OperatingRight right;
   EXPECT_FALSE(right.holder(0));
-  EXPECT_EQ(right.order(ann, 0), "");
-  EXPECT_EQ(right.order(bob, 1), "ann");
-  EXPECT_EQ(right.order(ann, 2), "");
+  EXPECT_EQ(order(right, ann, 0), "");
+  EXPECT_EQ(order(right, bob, 1), "ann");
+  EXPECT_EQ(order(right, ann, 2), "");
   EXPECT_EQ(right.holder(2)->name, "ann");
   EXPECT_TRUE(right.is_held_by(ann.key, 2));
   EXPECT_FALSE(right.is_held_by(bob.key, 2));
 }
 
-TEST(OperatingRight, AStationThatIsGoneLosesItWhenItsLeaseEnds) {
+TEST(OperatingRight, ARefusedOrderDoesNotTakeItAndHasItUntilItsAnswer) {
+  OperatingRight right;
+  EXPECT_EQ(right.order(ann, 0), "");
+  EXPECT_EQ(right.order(ann, 0), "");
+  EXPECT_FALSE(right.holder(0)) << "it is reserved, and nobody holds it";
+  EXPECT_EQ(right.order(bob, 0), "ann");
+  EXPECT_FALSE(right.answered(ann.key, false, 1));
+  EXPECT_EQ(right.order(bob, 1), "ann") << "another order of ann's is being answered";
+  EXPECT_FALSE(right.answered(ann.key, false, 1));
+  EXPECT_EQ(right.order(bob, 1), "");
+  EXPECT_FALSE(right.answered(ann.key, true, 1)) << "ann has reserved nothing any more";
+  EXPECT_TRUE(right.answered(bob.key, true, 2));
+  EXPECT_EQ(right.holder(2)->name, "bob");
+  EXPECT_EQ(right.order(bob, 3), "");
+  EXPECT_FALSE(right.answered(bob.key, false, 3));
+  EXPECT_EQ(right.holder(3)->name, "bob") << "who holds it keeps it";
+}
+
+TEST(OperatingRight, WhoTakesItWhileAnotherOnesOrderIsBeingAnsweredHasIt) {
   OperatingRight right;
   right.order(ann, 0);
+  EXPECT_EQ(right.take(bob, 1), Taken::yes);
+  EXPECT_FALSE(right.answered(ann.key, true, 2));
+  EXPECT_EQ(right.holder(2)->name, "bob");
+}
+
+TEST(OperatingRight, AStationThatIsGoneLosesItWhenItsLeaseEnds) {
+  OperatingRight right;
+  order(right, ann, 0);
   right.present(ann.key, 10);
-  EXPECT_EQ(right.order(bob, 25), "ann") << "10 s and the lease of 15 s";
-  EXPECT_EQ(right.order(bob, 25.1), "");
+  EXPECT_EQ(order(right, bob, 25), "ann") << "10 s and the lease of 15 s";
+  EXPECT_EQ(order(right, bob, 25.1), "");
   right.present(ann.key, 26);
   EXPECT_EQ(right.holder(26)->name, "bob") << "a sign of life does not bring it back";
   EXPECT_FALSE(right.holder(41));
@@ -33,7 +66,7 @@ TEST(OperatingRight, AStationThatIsGoneLosesItWhenItsLeaseEnds) {
 
 TEST(OperatingRight, IsHandedOverWithConsent) {
   OperatingRight right;
-  right.order(ann, 0);
+  order(right, ann, 0);
   EXPECT_FALSE(right.hand_over(ann.key, 1)) << "nobody asks";
   EXPECT_EQ(right.take(bob, 1), Taken::asked);
   EXPECT_EQ(right.asking(1)->name, "bob");
@@ -42,12 +75,12 @@ TEST(OperatingRight, IsHandedOverWithConsent) {
   EXPECT_TRUE(right.hand_over(ann.key, 2));
   EXPECT_EQ(right.holder(2)->name, "bob");
   EXPECT_FALSE(right.asking(2));
-  EXPECT_EQ(right.order(ann, 3), "bob");
+  EXPECT_EQ(order(right, ann, 3), "bob");
 }
 
 TEST(OperatingRight, MayBeKeptAndWhoAskedAndIsGoneIsForgotten) {
   OperatingRight right;
-  right.order(ann, 0);
+  order(right, ann, 0);
   right.take(bob, 0);
   EXPECT_TRUE(right.refuse(ann.key, 1));
   EXPECT_FALSE(right.asking(1));
@@ -59,16 +92,16 @@ TEST(OperatingRight, MayBeKeptAndWhoAskedAndIsGoneIsForgotten) {
 
 TEST(OperatingRight, ASetterTakesItOver) {
   OperatingRight right;
-  right.order(ann, 0);
-  EXPECT_EQ(right.order(setter, 1), "ann") << "an order alone does not";
+  order(right, ann, 0);
+  EXPECT_EQ(order(right, setter, 1), "ann") << "an order alone does not";
   EXPECT_EQ(right.take(setter, 1), Taken::yes);
-  EXPECT_EQ(right.order(ann, 2), "sam");
+  EXPECT_EQ(order(right, ann, 2), "sam");
   EXPECT_EQ(right.take(ann, 2), Taken::asked);
 }
 
 TEST(OperatingRight, ALogoutGivesItBackAtOnce) {
   OperatingRight right;
-  right.order(ann, 0);
+  order(right, ann, 0);
   right.take(bob, 0);
   right.release(bob.key);
   EXPECT_FALSE(right.asking(1));

@@ -53,6 +53,22 @@ TEST(OperatorCommands, EveryCommandOfTheIdlHasOneRowAndOneWord) {
   EXPECT_EQ(names.size(), channel_commands().size());
 }
 
+TEST(OperatorCommands, WhatStopsMotionComesByTheStreamAndWhileTheChannelIsBusy) {
+  int stops = 0;
+  for (const auto& row : channel_commands()) {
+    EXPECT_EQ(motion_of(row.kind), row.motion);
+    EXPECT_EQ(stops_motion(row.route), row.motion == Motion::stops) << row.route;
+    if (row.motion != Motion::stops) continue;
+    ++stops;
+    EXPECT_TRUE(row.by_stream && row.busy && row.modes.empty()) << row.route;
+  }
+  EXPECT_EQ(stops, 2) << "feed hold and the end of a jog";
+  EXPECT_EQ(motion_of(CommandKind::CYCLE_START), Motion::starts);
+  EXPECT_EQ(motion_of(CommandKind::HANDWHEEL), Motion::neither) << "its counts must not withdraw a hold";
+  EXPECT_EQ(motion_of(CommandKind::JOG_RENEW), Motion::neither);
+  EXPECT_FALSE(stops_motion("no-such-route"));
+}
+
 struct Case {
   const char* route;
   const char* body;

@@ -215,5 +215,33 @@ TEST(MachineCheck, AGoodMachineMayStart) {
   }
 }
 
+const char* const continues = "gateway_loss:\n  continue_with: {feed_hold: X200.0, emergency_stop: X200.1}\n";
+const char* const reads_them = "feed_hold := feed_hold_button OR %X200.0 OR %X200.1;";
+
+TEST(MachineCheck, AMachineRunsOnWithoutItsPageOnlyWithInputsThatHoldAndStop) {
+  Copy copy("ac-table");
+  copy.append("machine.yaml", continues);
+  EXPECT_THAT(copy.findings(),
+              ElementsAre(HasSubstr("feed_hold is X200.0, which no block of plc/modbus.yaml writes"),
+                          HasSubstr("feed_hold is X200.0, which no program of the PLC reads"),
+                          HasSubstr("emergency_stop is X200.1, which no block of plc/modbus.yaml writes"),
+                          HasSubstr("emergency_stop is X200.1, which no program of the PLC reads")));
+  copy.replace("plc/fast.st", "feed_hold := feed_hold_button;", reads_them)
+      .write("plc/modbus.yaml", "server: {inputs: [{table: coils, address: 0, count: 1, at: X200.0}]}\n");
+  EXPECT_THAT(copy.findings(),
+              ElementsAre(HasSubstr("emergency_stop is X200.1, which no block of plc/modbus.yaml writes")));
+  // A word is two bytes: X199 and X200.
+  copy.write("plc/modbus.yaml",
+             "server: {inputs: [{table: holding_registers, address: 0, count: 1, at: X199}]}\n");
+  EXPECT_THAT(copy.findings(), IsEmpty());
+}
+
+// The panel of hal-sim-xyz is read as an array of bytes from X100 on.
+TEST(MachineCheck, AnInputOfAnArrayIsRead) {
+  Copy copy("hal-sim-xyz");
+  copy.append("machine.yaml", "gateway_loss:\n  continue_with: {feed_hold: X100.5, emergency_stop: X24.0}\n");
+  EXPECT_THAT(copy.findings(), IsEmpty());
+}
+
 }  // namespace
 }  // namespace trunnion::machine_check

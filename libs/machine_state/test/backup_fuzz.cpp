@@ -17,7 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   storage::decide("f", bytes, bytes.substr(0, size / 2), false);
   try {
     const auto backup = machine_state::read_backup(bytes);
-    if (machine_state::read_backup(machine_state::write_backup(backup)).files != backup.files) std::abort();
+    const auto again = machine_state::read_backup(machine_state::write_backup(backup));
+    if (again.files != backup.files || again.configuration != backup.configuration) std::abort();
   } catch (const std::runtime_error&) {
   }
   try {

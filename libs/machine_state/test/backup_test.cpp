@@ -9,6 +9,7 @@
 
 #include "machine_state/archive.hpp"
 #include "state_fixture.hpp"
+#include "storage/crc32.hpp"
 #include "storage/kept_text.hpp"
 
 namespace trunnion::machine_state {
@@ -94,6 +95,26 @@ TEST_F(BackupTest, ANewerFormatOrANameThatLeadsElsewhereIsRefused) {
   auto backup = taken();
   backup.files["../evil"] = "x";
   EXPECT_THAT(refusal(write_backup(backup)), HasSubstr("unexpected file: ../evil"));
+}
+
+TEST_F(BackupTest, HasTheFilesOfTheMachineBesideTheState) {
+  auto backup = taken();
+  backup.configuration = {{"machine.yaml", "name: mill\n"}, {"plc/main.st", "PROGRAM main\n"}};
+  const auto back = read_backup(write_backup(backup));
+  EXPECT_EQ(back.configuration, backup.configuration);
+  EXPECT_EQ(back.files, backup.files);
+  backup.configuration["plc/../../evil"] = "x";
+  EXPECT_THAT(refusal(write_backup(backup)), HasSubstr("unexpected file: configuration/plc/../../evil"));
+}
+
+TEST_F(BackupTest, OfFormat1HasTheStateOnly) {
+  const std::string text = "{}\n", manifest = R"({"format": 1, "machine": "mill", "version": "0.3.0",
+    "time": "2026-01-31T08:00:00Z", "files": [{"name": "journal.jsonl", "size": 3, "crc32": )" +
+                                              std::to_string(storage::crc32(text)) + "}]}\n";
+  const auto backup = read_backup(
+      write_tar({{"MANIFEST.json", storage::seal("MANIFEST.json", 1, manifest)}, {"journal.jsonl", text}}));
+  EXPECT_EQ(backup.files, (FileSet{{"journal.jsonl", text}}));
+  EXPECT_TRUE(backup.configuration.empty());
 }
 
 TEST_F(BackupTest, ADamagedStateIsNotBackedUp) {

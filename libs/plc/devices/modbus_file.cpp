@@ -153,6 +153,23 @@ class ModbusReader {
 
 }  // namespace
 
+bool writes_input(const ModbusFile& file, const RegisterAddress& bit) {
+  const auto writes = [&](const ModbusBlock& block) {
+    for (std::uint32_t i = 0; i < block.count; ++i) {
+      const auto at = place_of(block, i);
+      // A word takes two registers of 8 bits.
+      const auto distance = bit.index - at.index;
+      if (at.is_bit() ? at == bit : distance == 0 || distance == 1) return true;
+    }
+    return false;
+  };
+  const auto any = [&](const std::vector<ModbusBlock>& blocks) {
+    return std::any_of(blocks.begin(), blocks.end(), writes);
+  };
+  return (file.server && any(file.server->inputs)) ||
+         std::any_of(file.devices.begin(), file.devices.end(), [&](const auto& d) { return any(d.inputs); });
+}
+
 RegisterAddress place_of(const ModbusBlock& block, std::uint32_t i) {
   const auto width = static_cast<std::uint32_t>(info(block.first.area).bits);
   auto at = block.first;

@@ -58,6 +58,9 @@ struct ModbusFile {
   bool operator==(const ModbusFile&) const = default;
 };
 
+/// Whether a device or a client writes the bit X of the inputs.
+bool writes_input(const ModbusFile& file, const RegisterAddress& bit);
+
 /// One line for each connection that begins, ends or begins anew when `next` replaces `running`.
 std::vector<std::string> changes_of(const ModbusFile& running, const ModbusFile& next);
 

@@ -146,6 +146,39 @@ TEST_F(Flow, WaitsForTextThatHasNotArrivedAndForNothingElse) {
   EXPECT_EQ(x(), 20);
 }
 
+TEST_F(Flow, ReadsALoopWithoutMotionInPartsAndLetsThePathBeforeItEnd) {
+  start("G90 F6000\nG1 X10\nN5 G90\nG1 X10\nGOTO 5\nM30\n");
+  EXPECT_EQ(run(), FlowState::loop);
+  EXPECT_EQ(x(), 10);
+  const auto lines = flow.lines_without_motion();
+  EXPECT_GE(lines, lines_of_loop);
+  EXPECT_LT(lines, lines_of_loop + 1000) << "of one call of the interpreter";
+  EXPECT_EQ(flow.fill(false), FlowState::loop);
+  EXPECT_EQ(flow.lines_without_motion(), lines) << "the caller reads on";
+  flow.read_on();
+  while (flow.fill(false) == FlowState::waiting) EXPECT_FALSE(flow.text_missing());
+  EXPECT_GE(flow.lines_without_motion(), lines + 8000);
+  EXPECT_LT(flow.lines_without_motion(), lines + 9000);
+}
+
+TEST_F(Flow, ALoopOfMovesThatMotionMakesOnePointOfIsOneWithoutMotion) {
+  start("G91 F6000\nN5 G1 X0.001\nX-0.001\nGOTO 5\n");
+  EXPECT_EQ(run(), FlowState::loop);
+  EXPECT_TRUE(flow.loops());
+}
+
+TEST_F(Flow, ALoopThatMovesAnAxisOrDwellsIsNoneWithoutMotion) {
+  for (const char* program : {"G91 F6000\nN5 G1 X1\nX-1\nGOTO 5\n", "N5 G4 P1\nGOTO 5\n"}) {
+    start(program);
+    for (int cycle = 0; cycle < 100000; ++cycle) {
+      const auto state = flow.fill(false);
+      ASSERT_TRUE(state == FlowState::full || state == FlowState::waiting) << program;
+      if (state == FlowState::full) trajectory->step(1, 1, false);
+    }
+    EXPECT_FALSE(flow.loops()) << program;
+  }
+}
+
 TEST_F(Flow, SingleBlockStopsBeforeTheNextLineAndContinuesOnDemand) {
   single_block = true;
   start("G90 F6000\nG1 X10\nX20\n");

@@ -16,6 +16,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   if (reader.ending() == Ending::none || (reader.ending() == Ending::complete) != reader.problem().empty())
     std::abort();
+  if (!reader.damages().empty() && reader.ending() != Ending::damaged) std::abort();
+  for (const auto& damage : reader.damages())
+    if (damage.begin > damage.end || damage.end > size || text_of(damage).empty()) std::abort();
   volatile auto keep = sum;
   (void)keep;
   return 0;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "recording/mcap_index.hpp"
 #include "recording/mcap_reader.hpp"
 #include "recording/mcap_writer.hpp"
 
@@ -121,27 +122,80 @@ TEST(Mcap, AFileCutOffAnywhereGivesItsWholeChunks) {
   EXPECT_EQ(most, messages.size());
 }
 
-// A wrong opcode makes a chunk a record of a later version, which readers have to skip; so chunks may be
-// missing, but nothing else is ever delivered.
-TEST(Mcap, AWrongByteNeverChangesAMessage) {
+// Where the wrong byte is in no chunk, nothing is missing; and what is delivered is as it was written.
+TEST(Mcap, AnyWrongByteIsFoundAndCostsNoMoreThanItsChunk) {
   const auto messages = some_messages(60, 4);
   const auto file = written(messages, 800);
-  int damaged = 0;
+  MemorySource whole(file);
+  const auto chunks = read_index(whole, 1 << 20).chunks;
+  ASSERT_GT(chunks.size(), 4u);
   for (std::size_t at = 0; at < file.size(); ++at) {
-    auto broken = file;
-    broken[at] ^= 0x10;
-    const auto result = read(broken);
-    auto place = messages.begin();
-    for (const auto& message : result.messages) {
-      place = std::find_if(place, messages.end(), [&](const Message& m) { return m.data == message.data; });
-      ASSERT_NE(place, messages.end()) << at;
-      ++place;
+    auto left = messages;
+    for (const auto& chunk : chunks) {
+      if (at < chunk.offset || at >= chunk.offset + chunk.length) continue;
+      const auto first = read(std::span(file).first(chunk.offset)).messages.size();
+      const auto last = read(std::span(file).first(chunk.end())).messages.size();
+      ASSERT_LT(first, last);
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(first),
+                 left.begin() + static_cast<std::ptrdiff_t>(last));
     }
-    EXPECT_NE(result.ending, Ending::none);
-    damaged += result.ending == Ending::damaged;
+    auto broken = file;
+    broken[at] ^= static_cast<std::uint8_t>(1u << (at % 8));
+    const auto result = read(broken);
+    EXPECT_NE(result.ending, Ending::complete) << at;
+    EXPECT_FALSE(result.problem.empty()) << at;
+    ASSERT_TRUE(result.messages == messages || result.messages == left) << at << ": " << result.problem;
   }
-  // Most of the file is chunks, and every byte of a chunk's messages is under its checksum.
-  EXPECT_GT(damaged, static_cast<int>(file.size() / 3));
+}
+
+TEST(Mcap, NamesBytesAndTimesOfADamagedChunk) {
+  const auto messages = some_messages(60, 4);
+  auto file = written(messages, 800);
+  MemorySource whole(file);
+  const auto chunk = read_index(whole, 1 << 20).chunks.at(1);
+  file[chunk.offset + chunk.length - 1] ^= 1;
+  MemorySource source(file);
+  Reader reader(source);
+  MessageView view;
+  while (reader.next(view)) {
+  }
+  EXPECT_EQ(reader.ending(), Ending::damaged);
+  ASSERT_EQ(reader.damages().size(), 1u);
+  const auto& damage = reader.damages()[0];
+  EXPECT_EQ(damage.begin, chunk.offset);
+  EXPECT_EQ(damage.end, chunk.offset + chunk.length);
+  EXPECT_EQ(damage.first_time, chunk.first_time);
+  EXPECT_EQ(damage.last_time, chunk.last_time);
+  EXPECT_EQ(reader.problem(), "damaged, " + text_of(damage));
+}
+
+TEST(Mcap, TellsADamageInOneLine) {
+  constexpr std::uint64_t ten_past_ten = 1'772'359'800'000'000'000;  // 2026-03-01, ns
+  const Damage damage{2000, 2800, ten_past_ten, ten_past_ten + 1'250'000'000, "the chunk fails its checksum"};
+  EXPECT_EQ(text_of(damage),
+            "bytes 2000 to 2799, messages of 2026-03-01T10:10:00.000Z to 10:10:01.250Z: the chunk fails its "
+            "checksum");
+  EXPECT_EQ(text_of(Damage{0, 8, 0, 0, "wrong"}), "bytes 0 to 7: wrong");
+  const std::vector<Damage> damages(5, {0, 8, 0, 0, "wrong"});
+  EXPECT_EQ(text_of(damages),
+            "damaged, bytes 0 to 7: wrong; bytes 0 to 7: wrong; bytes 0 to 7: wrong; and 2 "
+            "more places");
+}
+
+// Without an index the lengths of the records lead on.
+TEST(Mcap, ADamagedChunkOfAFileThatIsCutOffCostsItsMessagesOnly) {
+  const auto messages = some_messages(60, 4);
+  const auto file = written(messages, 800);
+  MemorySource whole(file);
+  const auto chunks = read_index(whole, 1 << 20).chunks;
+  const auto up_to = [&](std::size_t chunk) {
+    return read(std::span(file).first(chunks.at(chunk).end())).messages.size();
+  };
+  Bytes part(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(chunks.at(4).end()));
+  part[chunks[2].offset + chunks[2].length - 1] ^= 1;
+  const auto result = read(part);
+  EXPECT_EQ(result.ending, Ending::damaged);
+  EXPECT_EQ(result.messages.size(), up_to(1) + up_to(4) - up_to(2));
 }
 
 TEST(Mcap, ForgedLengthsAreRefusedWithoutAllocating) {

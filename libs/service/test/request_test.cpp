@@ -140,5 +140,21 @@ TEST_F(Requests, AClientGetsItsOwnAnswerAndRepeatsWhatIsNotAnswered) {
   EXPECT_FALSE(client.busy());
 }
 
+TEST_F(Requests, AClientSaysWhetherWhoeverIsSilentIsConnected) {
+  RequestClient<PanelRequest, PanelReply> heard(bus_, topics::panel_request, topics::panel_reply);
+  EXPECT_TRUE(eventually([&] { return heard.connected() == 1; }));
+  EXPECT_EQ(silence("the PLC", 15, heard.connected()),
+            "the PLC does not answer within 15 s: it is connected");
+  using idl::program::ProgramReply;
+  using idl::program::ProgramRequest;
+  RequestClient<ProgramRequest, ProgramReply> alone(bus_, topics::program_request, topics::program_reply);
+  const auto recorder = bus_.reader(topics::program_request);
+  EXPECT_EQ(alone.connected(), 0) << "who only reads requests answers none";
+  EXPECT_EQ(silence("the program service", 0.5, 0),
+            "the program service does not answer within 0.5 s: it is not connected, see `trunnion status`");
+  EXPECT_EQ(silence("channel 1", 15, 2),
+            "channel 1 does not answer within 15 s: 2 of its kind are connected");
+}
+
 }  // namespace
 }  // namespace trunnion::service

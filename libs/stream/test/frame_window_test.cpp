@@ -119,6 +119,34 @@ TEST(FrameWindow, AMissingFrameIsAGapOnceALaterOneIsHere) {
   EXPECT_EQ(drain(window), (std::vector<std::uint64_t>{8, 16}));
 }
 
+// No channel writes epoch 9 after epoch 1; only a foreign process does.
+TEST(FrameWindow, AFrameOfAnImpossibleEpochStandsInTheWayOfNone) {
+  FrameWindow<AxisFrame> window;
+  window.set_next(1, 100);
+  EXPECT_EQ(put(window, window_frame(108, 8, 9)), Arrival::news);
+  EXPECT_TRUE(window.gap());
+  put(window, window_frame(100, 8, 1, true));
+  EXPECT_EQ(put(window, window_frame(108, 8, 1)), Arrival::news) << "in the same slot";
+  EXPECT_EQ(drain(window), (std::vector<std::uint64_t>{100, 108}));
+  window.set_next(1, 116);  // as after a gap, from the drive
+  EXPECT_FALSE(window.gap());
+}
+
+TEST(FrameWindow, AWindowThatAForeignStartLedAwayIsAstrayAndReturns) {
+  FrameWindow<AxisFrame> window;
+  window.set_next(1, 100);
+  put(window, window_frame(5000, 8, 9, true));
+  EXPECT_EQ(drain(window), std::vector<std::uint64_t>{5000});
+  EXPECT_TRUE(window.is_astray(1, 100));
+  window.set_next(1, 100);
+  EXPECT_FALSE(window.is_astray(1, 100));
+  put(window, window_frame(100, 8, 2, true));
+  EXPECT_EQ(drain(window), std::vector<std::uint64_t>{100});
+  put(window, window_frame(1'000'000, 8, 2, true));
+  drain(window);
+  EXPECT_TRUE(window.is_astray(2, 108)) << "the same epoch, but cycles that nobody may write yet";
+}
+
 TEST(FeedbackWindow, RowsAreFoundByTheirCycleOnly) {
   FeedbackWindow window;
   idl::stream::FeedbackFrame f;

@@ -56,6 +56,20 @@ TEST(GatewayPlan, ARequestIsSentWhereTheGatewayActedOnItAndAnsweredAsRecorded) {
   EXPECT_EQ(plan.outputs.expected.size(), 2u) << "the order and the line";
 }
 
+TEST(GatewayPlan, AReplyThatCameAfterTheAnswerIsNone) {
+  for (const std::uint16_t status : {202, 504}) {
+    auto recording = shown_recording();
+    recording.messages.push_back(
+        stored(topics::channel_request, channel_request(7, 4, CommandKind::FEED_HOLD), 20));
+    recording.messages.push_back(
+        stored(topics::operator_request, operator_line("/a", "", 7, 4, 1, status), 23));
+    recording.messages.push_back(stored(topics::channel_reply, channel_reply(7, 4), 24));
+    const auto plan = plan_gateway(recording);
+    ASSERT_EQ(plan.requests.size(), 1u);
+    EXPECT_FALSE(plan.requests[0].replies.at(0)) << status;
+  }
+}
+
 TEST(GatewayPlan, TheOrderInWhichTheRecorderHeardThingsDoesNotMatter) {
   auto recording = one_order();
   const auto straight = text_of(plan_gateway(recording));

@@ -76,6 +76,22 @@ TEST(ShownState, AxesAreTheLastRowOfTheFeedbackUnderTheirLogicalNumbers) {
   EXPECT_EQ(document["drive"]["executed"], 102);
 }
 
+TEST(ShownState, BeforeTheFirstCycleAxesAreWhereTheyStand) {
+  StoredRecording recording;
+  idl::parameters::ParameterSet set;
+  set.revision = 1;
+  set.values = {{parameter::axis_name.number(), 0, "X"}};
+  recording.messages.push_back(stored(topics::parameter_set, set, 1));
+  auto frame = feedback_frame(100, 0);
+  frame.axis_count = 1;
+  frame.position = {7.5};
+  recording.messages.push_back(stored(topics::feedback_frame, frame, 2));
+  const auto axis = shown_of(recording)["axes"]["0"];
+  EXPECT_EQ(axis["commanded"], 7.5);
+  EXPECT_EQ(axis["actual"], 7.5);
+  EXPECT_EQ(axis["following_error"], 0.0);
+}
+
 TEST(ShownState, AnAlarmEndsWithItselfOrWithTheProcessThatRaisedIt) {
   auto recording = shown_recording();
   recording.messages.push_back(stored(topics::alarm, alarm_of_channel(), 20));

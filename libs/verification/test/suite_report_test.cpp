@@ -28,6 +28,8 @@ TEST(SuiteReport, JudgesByTheStatusAndTellsTheFirstDifference) {
   EXPECT_EQ(result.problem, "first difference: kinematics_frame, channel 0, cycle 12, setpoints[1] <Y>");
   EXPECT_EQ(judged(1, R"({"equal": true, "problem": "", "missing": ["backlash"]})").problem,
             "required, and not in the recording: backlash");
+  EXPECT_EQ(judged(1, R"({"error": "r.mcap: damaged, bytes 7 to 9"})").problem,
+            "r.mcap: damaged, bytes 7 to 9");
   // Neither a status without an answer nor an answer of another shape is a success.
   EXPECT_EQ(judged(0, "", "cannot open x").problem, "cannot open x");
   EXPECT_FALSE(judged(0, "[1]").passed);

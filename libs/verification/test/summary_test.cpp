@@ -89,6 +89,37 @@ TEST(Summary, TopicsOfAnotherContractAreNamedAndNotDecoded) {
   EXPECT_EQ(recording.foreign, (std::set<std::string>{"elsewhere/topic", entry.description.name}));
 }
 
+TEST(Summary, NamesTheServicesThatHaveNotGivenTheirState) {
+  idl::service::Cluster cluster;
+  StoredRecording recording;
+  std::uint64_t time = 10;
+  const auto give = [&](std::uint32_t instance, idl::service::SnapshotKind kind, const std::string& detail) {
+    idl::service::ServiceSnapshot snapshot;
+    snapshot.instance = instance;
+    snapshot.kind = kind;
+    snapshot.detail = detail;
+    recording.messages.push_back(stored(topics::service_snapshot, snapshot, ++time));
+  };
+  for (const std::string name : {"parameters", "channel", "plc", "kinematics", "drive"}) {
+    idl::service::ClusterService service;
+    service.instance = static_cast<std::uint32_t>(cluster.services.size());
+    service.service = name;
+    service.pid = name == "drive" ? 0 : 100;
+    cluster.services.push_back(service);
+  }
+  recording.messages = {stored(topics::cluster, cluster, 1)};
+  EXPECT_TRUE(summary_of(recording).without_state.empty()) << "nobody was asked";
+  recording.messages.push_back(stored(topics::snapshot_request, {1, 1}, 2));
+  give(1, idl::service::SnapshotKind::LATER, "in motion");
+  give(2, idl::service::SnapshotKind::LATER, "in motion");
+  give(2, idl::service::SnapshotKind::GIVEN, "");
+  give(3, idl::service::SnapshotKind::NOT_NEEDED, "");
+  const auto s = summary_of(recording);
+  EXPECT_EQ(s.without_state, (std::vector<std::string>{"parameters", "channel: in motion"}));
+  EXPECT_NE(text_of(s).find("\nno state   parameters\nno state   channel: in motion\n"), std::string::npos);
+  EXPECT_EQ(json_of(s)["without_state"][0], "parameters");
+}
+
 // What a crash or a full disk leaves is read up to the last whole chunk, byte by byte of the last ones.
 TEST(Summary, AFileCutOffAnywhereInItsLastChunksGivesWhatIsWhole) {
   const auto recording = sample_recording(60);

@@ -26,7 +26,7 @@ Answer ChannelCore::refuse(const machine::AlarmDefinition& alarm, std::string re
   return {false, alarm.number, std::move(reason)};
 }
 
-Answer ChannelCore::startable() const {
+Answer ChannelCore::operable() const {
   if (!configured()) return refuse(alarm::not_ready, "The channel has no parameters yet");
   if (!ready_) return refuse(alarm::not_ready, "The cluster is not ready: see the services");
   if (!external_hold_.empty()) return refuse(alarm::not_ready, external_hold_);
@@ -37,6 +37,17 @@ Answer ChannelCore::startable() const {
     return refuse(alarm::not_ready,
                   "An axis searches its reference: wait until it has found it, or end it with feed hold");
   return {};
+}
+
+// The drive moves nothing while any of its axes has no reference.
+Answer ChannelCore::startable() const {
+  if (auto answer = operable(); !answer.accepted) return answer;
+  std::string names;
+  for (const auto& axis : machine::drive_axes(*parameters_))
+    if (unreferenced_.contains(axis.number)) names += (names.empty() ? "" : ", ") + axis.name;
+  if (names.empty()) return {};
+  return refuse(alarm::not_homed,
+                "Axes without a reference: " + names + ". Mode REF, then reference return of each");
 }
 
 Answer ChannelCore::may_start() const {

@@ -48,10 +48,14 @@ void ChannelCore::apply_parameters() {
     machine_.configure(*next_parameters_);
     if (first) mdi_.modal = power_on_modal();
   } catch (const std::exception& e) {
-    event(machine::alarm_of(e), e.what());
+    if (first)
+      unusable_ = {&machine::alarm_of(e), 0, e.what()};
+    else
+      event(machine::alarm_of(e), e.what());
     next_parameters_.reset();
     return;
   }
+  unusable_.reset();
   parameters_ = std::exchange(next_parameters_, nullptr);
   for (const auto& line : machine::kinematics_warnings(*parameters_, number_))
     event(alarm::direction_not_unit, line);

@@ -124,6 +124,10 @@ class ChannelCore {
   // What the service takes away. Call advance() first; produce() until it returns false.
   void advance();
   bool produce(idl::stream::PathFrame& frame);
+  /// Many lines have brought no motion.
+  bool loops() const;
+  /// Some thousand lines more, once the axes are at rest. False when there is nothing to do.
+  bool read_on();
   std::optional<idl::stream::StreamRequest> take_stream_request() { return stream_.link().take_request(); }
   std::optional<idl::channel::AuxiliaryRequest> take_auxiliary() { return handshake_.take_request(); }
   std::optional<idl::parameters::ParameterRequest> take_table_request() {
@@ -134,12 +138,16 @@ class ChannelCore {
   const language::VariableStore* take_variables() {
     return std::exchange(variables_news_, false) ? variables_.get() : nullptr;
   }
+  /// Why it is not configured: the newest parameters cannot be used, and there were no others before.
+  const std::optional<ChannelEvent>& unusable() const { return unusable_; }
   std::vector<ChannelEvent> take_events() { return std::exchange(events_, {}); }
   const idl::channel::ChannelState& state();
   RunningProgram running_program() const;
   bool program_under_way() const {
     return !lock_.any() && (states_.is(Activity::program) || states_.suspended() != nullptr);
   }
+  /// A program is held where a search has ended, and alarm 171 announces what cycle start does.
+  bool held_at_line() const { return states_.in<Held>() && states_.preparing() != nullptr && !restart_; }
   /// Motion, or the search for a line, cannot continue before a part of the program's text has arrived.
   bool waits_for_text() const { return states_.in<Running>() && states_.running()->text_missing; }
 
@@ -175,6 +183,7 @@ class ChannelCore {
   // channel_commands.cpp: what an operator may ask, and when.
   Answer refuse(const machine::AlarmDefinition& alarm, std::string reason) const;
   Answer refuse(Refusal refusal) const { return refuse(*refusal.alarm, std::move(refusal.reason)); }
+  Answer operable() const;
   Answer startable() const;
   Answer may_start() const;
   Answer may_move_by_hand() const;
@@ -360,6 +369,7 @@ class ChannelCore {
   bool variables_news_ = false;
 
   std::vector<ChannelEvent> events_;
+  std::optional<ChannelEvent> unusable_;
   idl::channel::ChannelState state_;
 };
 

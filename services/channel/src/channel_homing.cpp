@@ -14,7 +14,7 @@ bool ChannelCore::needs_homing(std::uint16_t axis) const {
 
 Answer ChannelCore::begin_homing(std::uint16_t axis) {
   if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
-  if (auto answer = startable(); !answer.accepted) return answer;
+  if (auto answer = operable(); !answer.accepted) return answer;
   homing_ = Homing{axis};
   advance_homing();
   return {};

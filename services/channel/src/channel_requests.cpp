@@ -56,6 +56,7 @@ void ChannelCore::run_pending(FlowState state) {
       return;
     case FlowState::full:
     case FlowState::waiting:
+    case FlowState::loop:
     case FlowState::found:
       return;
     case FlowState::command:

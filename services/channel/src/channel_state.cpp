@@ -7,6 +7,13 @@
 #include "modal_codes.hpp"
 
 namespace trunnion::channel {
+namespace {
+// 20,000 .. 999,000, then 1.0 million.
+std::string in_words(std::uint64_t lines) {
+  if (lines < 1000000) return std::to_string(lines / 1000) + ",000";
+  return std::to_string(lines / 1000000) + "." + std::to_string(lines / 100000 % 10) + " million";
+}
+}  // namespace
 
 std::string ChannelCore::detail() const {
   if (homing_) return homing_detail();
@@ -14,6 +21,9 @@ std::string ChannelCore::detail() const {
   const auto* preparing = states_.preparing();
   const auto& executed = progress_.executed;
   if (preparing != nullptr && held) return "cycle start: " + words_of(preparing->preparation, machine_start_);
+  if (loops())
+    return "line " + std::to_string(flow().main_line()) + ": " + in_words(flow().lines_without_motion()) +
+           " lines were read without a motion; reset ends it";
   if (running && states_.is(Activity::program) && program_flow_.searching())
     return "searching line " + std::to_string(executed.line);
   if (cycle_call_.open()) return "waits for the measurement of the kinematics";

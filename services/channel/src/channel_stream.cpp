@@ -26,7 +26,7 @@ FlowState ChannelCore::fill() {
   flow().set_cycle(link().next());
   path().trajectory().set_position_check(tapping_.active() ? 0 : exact_stop_.cycles());
   const auto state = flow().fill(switches_.single_block && states_.is(Activity::program));
-  running->text_missing = state == FlowState::waiting;
+  running->text_missing = state == FlowState::waiting && flow().text_missing();
   report_guard();
   return state;
 }
@@ -76,7 +76,20 @@ void ChannelCore::advance() {
       finish_skip();
     else
       run_pending(state);
+    if (state == FlowState::loop) return;
   }
+}
+
+bool ChannelCore::loops() const {
+  return states_.in<Running>() && states_.interpreting() && flow().started() && flow().loops();
+}
+
+// The path behind a loop begins at rest, so that it does not depend on how fast the lines are read.
+bool ChannelCore::read_on() {
+  if (!loops() || !stream_.idle() || !motion_at_rest()) return false;
+  flow().read_on();
+  advance();
+  return true;
 }
 
 // A path that brakes or was dropped does not pass the stop; an interrupted one starts the check again.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream_link.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace trunnion::channel {
@@ -22,6 +23,7 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   for (const auto& echo : feedback.channels) {
     if (echo.channel != channel_) continue;
     echo_active_ = echo.active;
+    drive_epoch_ = echo.epoch;
     const bool forgotten = echo.request < answered_;
     drive_restarted_ = drive_restarted_ || forgotten;
     answered_ = echo.request;
@@ -65,7 +67,7 @@ void StreamLink::request(StreamRequestKind kind) {
 }
 
 void StreamLink::request_start() {
-  if (new_epoch_) ++epoch_;
+  if (new_epoch_) epoch_ = std::max(epoch_, drive_epoch_) + 1;
   state_ = LinkState::requested;
   request(new_epoch_ ? StreamRequestKind::NEW_EPOCH : StreamRequestKind::START);
 }

@@ -97,8 +97,9 @@ class StreamLink {
   std::uint64_t next_ = 0, executed_ = 0, tick_ = 0;
   std::uint32_t epoch_ = 0, request_ = 0, answered_ = 0;
   bool new_epoch_ = true, starts_ = false, echo_active_ = false, resuming_ = false, drive_restarted_ = false,
-       asked_ = false;   // the drive, by this process
-  bool homing_ = false;  // no field: it is at rest in no snapshot
+       asked_ = false;             // the drive, by this process
+  bool homing_ = false;            // no field: it is at rest in no snapshot
+  std::uint32_t drive_epoch_ = 0;  // no field: feedback tells it
   idl::stream::ChannelSnapshot snapshot_;
   std::vector<idl::stream::StageState> states_;
   std::vector<double> positions_;

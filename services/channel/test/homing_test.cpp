@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "channel_fixture.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -39,6 +40,24 @@ TEST_F(HomedAxis, AReferenceReturnOfAnAxisWithAHomeSwitchIsADemandOfTheDrive) {
   ASSERT_TRUE(start);
   EXPECT_EQ(start->kind, StreamRequestKind::NEW_EPOCH)
       << "the stream begins where the drive has found the axes";
+}
+
+TEST_F(HomedAxis, WithoutItsReferenceNothingStartsButItsSearch) {
+  core->set_unreferenced({1, 2});
+  const auto refused = [&](const Answer& answer) {
+    EXPECT_FALSE(answer.accepted);
+    EXPECT_EQ(answer.alarm, alarm::not_homed.number);
+    EXPECT_EQ(answer.reason, "Axes without a reference: Y, Z. Mode REF, then reference return of each");
+  };
+  refused(reference(0));  // an absolute encoder: the axis would move to its reference coordinate
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+  refused(ask(CommandKind::MDI_LINE, "G53 G0 X5"));
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG);
+  refused(ask(CommandKind::JOG_AXIS, "", 600, 1, Mode::JOG, 0));
+  load("G0 X1\nM30\n");
+  refused(ask(CommandKind::CYCLE_START));
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::REF);
+  EXPECT_TRUE(reference(1).accepted);
 }
 
 /// Y searches its switch in the drive.

@@ -122,5 +122,21 @@ TEST_F(OperatorCommands, OutsideTheirLimitsAreRefusedAndChangeNothing) {
   EXPECT_EQ(core->run_state(), RunState::IDLE);
 }
 
+TEST_F(OperatorCommands, AResetIsTakenWithParametersThatCannotBeUsedAndCorrectedOnesAreUsed) {
+  auto without_direction = testing::three_axes();
+  without_direction->values[40425] = {33, ""};
+  core = std::make_unique<ChannelCore>(0, true);
+  core->set_parameters(without_direction);
+  ASSERT_TRUE(core->unusable());
+  EXPECT_EQ(core->unusable()->text,
+            "channel 0, parameters 040426 .. 040428: the direction of an axis is zero");
+  EXPECT_TRUE(core->take_events().empty());
+  EXPECT_TRUE(ask(CommandKind::RESET).accepted);
+  EXPECT_EQ(core->state().reset_count, 1u);
+  core->set_parameters(testing::three_axes(2));
+  EXPECT_FALSE(core->unusable());
+  EXPECT_TRUE(core->configured());
+}
+
 }  // namespace
 }  // namespace trunnion::channel

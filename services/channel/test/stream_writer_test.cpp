@@ -51,6 +51,16 @@ struct Writer : ::testing::Test {
   double x = 0;
 };
 
+TEST_F(Writer, BeginsTheEpochAfterTheOneThatTheDriveHas) {
+  drive.request({0, 40, idl::stream::StreamRequestKind::NEW_EPOCH, 900, 0});  // of a foreign process
+  drive.request({0, 41, idl::stream::StreamRequestKind::LEAVE, 900, 0});
+  writer.link().leave();
+  writer.link().take_request();
+  writer.link().on_feedback(drive.run(0));
+  become_active();
+  EXPECT_EQ(writer.link().epoch(), 901u);
+}
+
 TEST_F(Writer, AsksForAPlaceOnlyWhenTheReplicasAreInStep) {
   writer.set_replicas(false, ~0ull);
   writer.start();

@@ -244,12 +244,20 @@ bool HalHardware::enabled() const {
 }
 
 bool HalHardware::period_due() {
+  if (const char* what = session_.ended()) give_up(what);
   if (streams_->queued() < queue_) return true;
   if (streams_->readable())
     sampled_ = std::chrono::steady_clock::now();
   else if (std::chrono::steady_clock::now() - sampled_ > silence_timeout)
-    throw std::runtime_error("HAL's servo thread has stopped: it has given no sample for 1 s");
+    give_up("HAL's servo thread has stopped, it has given no sample for 1 s");
   return false;
+}
+
+// The next process loads HAL anew, whose encoders begin to count elsewhere.
+void HalHardware::give_up(const char* what) {
+  end();
+  throw std::runtime_error(std::string(what) +
+                           ": HAL is loaded again; axes with a home switch must be homed");
 }
 
 void HalHardware::set_reference(std::size_t i, double shift_by) {

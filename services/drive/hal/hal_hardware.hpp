@@ -53,6 +53,7 @@ class HalHardware : public DriveHardware {
   void take_references();
   void first_sample();
   void check_period();
+  [[noreturn]] void give_up(const char* what);
   void write(const SetpointRow& row);
   void take(const HalSample& sample);
   void report_skip_edges(const HalSample& sample, EncoderRowSink& rows);

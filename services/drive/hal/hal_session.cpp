@@ -2,6 +2,7 @@
 #include "hal_session.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +13,8 @@
 #include <fstream>
 #include <stdexcept>
 #include <thread>
-#include <vector>
+
+#include "processes.hpp"
 
 namespace trunnion::drive {
 namespace fs = std::filesystem;
@@ -21,13 +23,6 @@ namespace {
 constexpr auto start_timeout = std::chrono::seconds(6);  // the launcher expects a heartbeat within 7.5 s
 constexpr auto end_timeout = std::chrono::milliseconds(1800);
 constexpr auto poll_period = std::chrono::milliseconds(10);
-
-std::string first_line(const std::string& path) {
-  std::ifstream in(path);
-  std::string line;
-  std::getline(in, line);
-  return line;
-}
 
 std::string last_line(const std::string& path) {
   std::ifstream in(path);
@@ -38,11 +33,14 @@ std::string last_line(const std::string& path) {
 }
 
 // In /tmp, where anybody may make a directory: one that belongs to another user is not ours.
+bool is_ours(const std::string& directory) {
+  struct stat status {};
+  return lstat(directory.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == geteuid();
+}
+
 void make_directory(const std::string& directory) {
   fs::create_directories(directory);
-  struct stat status {};
-  if (lstat(directory.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != geteuid())
-    throw std::runtime_error(directory + " belongs to another user");
+  if (!is_ours(directory)) throw std::runtime_error(directory + " belongs to another user");
 }
 
 }  // namespace
@@ -54,33 +52,59 @@ std::string hal_session_directory(std::uint32_t domain) {
 int hal_session_process(const std::string& directory) {
   std::ifstream in(directory + "/pid");
   int pid = 0;
-  if (!(in >> pid) || pid <= 0) return 0;
-  // The number may belong to another process by now, or to one that has ended and was not waited for.
-  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
-  std::string number, name, state;
-  const bool runs = stat >> number >> name >> state && name == "(trunnion-hal-se)" && state != "Z";
-  return runs ? pid : 0;
+  // The number may belong to another process by now.
+  return in >> pid && pid > 0 && process_name(pid) == session_process ? pid : 0;
 }
 
-HalSession::HalSession(const Options& options) : directory_(hal_session_directory(options.domain)) {
-  // One that has no longer got its file `ready` is about to end: wait until it has.
+HalSession::HalSession(const Options& options)
+    : program_(options.program), directory_(hal_session_directory(options.domain)) {
+  // One that is not ready, or whose HAL has ended, is about to end: wait until it has.
   const auto until = std::chrono::steady_clock::now() + start_timeout;
-  while (hal_session_process(directory_) != 0 && first_line(directory_ + "/ready").empty() &&
-         std::chrono::steady_clock::now() < until)
+  while (hal_session_process(directory_) != 0 && !ready() && std::chrono::steady_clock::now() < until)
     std::this_thread::sleep_for(poll_period);
-  if (hal_session_process(directory_) == 0) start(options);
-  identity_ = first_line(directory_ + "/ready");
+  if (hal_session_process(directory_) == 0) {
+    make_directory(directory_);
+    fs::remove(directory_ + "/ready");
+    wait_until_ready(start({directory_, options.file, std::to_string(options.watched_pid)}));
+  }
+  watch();
 }
 
-void HalSession::start(const Options& options) {
-  make_directory(directory_);
-  fs::remove(directory_ + "/ready");
-  if (access(options.program.c_str(), X_OK) != 0)
-    throw std::runtime_error(options.program + ": cannot be started");
-  std::vector<std::string> arguments{options.program, directory_, options.file,
-                                     std::to_string(options.watched_pid)};
+HalSession::~HalSession() {
+  for (const int descriptor : descriptors_)
+    if (descriptor >= 0) close(descriptor);
+}
+
+// The file has the identity, and the number of rtapi_app below it.
+bool HalSession::ready() const {
+  std::ifstream in(directory_ + "/ready");
+  std::string identity;
+  int pid = 0;
+  return in >> identity >> pid && process_name(pid) == real_time_process;
+}
+
+void HalSession::watch() {
+  std::ifstream in(directory_ + "/ready");
+  int pid = 0;
+  in >> identity_ >> pid;
+  descriptors_ = {process_descriptor(hal_session_process(directory_)), process_descriptor(pid)};
+  if (const char* what = ended()) throw std::runtime_error(what);
+}
+
+const char* HalSession::ended() const {
+  pollfd polled[] = {{descriptors_[0], POLLIN, 0}, {descriptors_[1], POLLIN, 0}};
+  if (descriptors_[0] >= 0 && descriptors_[1] >= 0 && poll(polled, 2, 0) <= 0) return nullptr;
+  return descriptors_[1] < 0 || polled[1].revents != 0 ? "LinuxCNC's real-time process rtapi_app has ended"
+                                                       : "The process trunnion-hal-session has ended";
+}
+
+// Its process.
+int HalSession::start(const std::vector<std::string>& arguments) const {
+  if (access(program_.c_str(), X_OK) != 0) throw std::runtime_error(program_ + ": cannot be started");
+  std::vector<std::string> words{program_};
+  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
-  for (auto& argument : arguments) argv.push_back(argument.data());
+  for (auto& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   const auto log = directory_ + "/log";
   const int child = fork();
@@ -94,12 +118,12 @@ void HalSession::start(const Options& options) {
     execv(argv[0], argv.data());
     _exit(127);
   }
-  wait_until_ready(child);
+  return child;
 }
 
 void HalSession::wait_until_ready(int child) {
   const auto until = std::chrono::steady_clock::now() + start_timeout;
-  while (first_line(directory_ + "/ready").empty()) {
+  while (!ready()) {
     const bool ended = waitpid(child, nullptr, WNOHANG) == child;
     if (ended || std::chrono::steady_clock::now() > until) {
       auto line = last_line(directory_ + "/log");
@@ -110,12 +134,15 @@ void HalSession::wait_until_ready(int child) {
   }
 }
 
+// A session that was killed leaves HAL and what its .hal file has started: another one ends them.
 void HalSession::end() {
-  const int pid = hal_session_process(directory_);
-  if (pid == 0) return;
-  kill(pid, SIGTERM);
+  int pid = hal_session_process(directory_);
+  if (pid != 0)
+    kill(pid, SIGTERM);
+  else if (is_ours(directory_))
+    pid = start({"--end", directory_});
   const auto until = std::chrono::steady_clock::now() + end_timeout;
-  while (hal_session_process(directory_) == pid && std::chrono::steady_clock::now() < until)
+  while (pid != 0 && process_name(pid) != "" && std::chrono::steady_clock::now() < until)
     std::this_thread::sleep_for(poll_period);
 }
 

@@ -10,6 +10,7 @@
 // therefore asks at most twice the limit of an axis, and that only where the path uses all of the limit.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "drive_core.hpp"
 
@@ -101,7 +102,8 @@ void DriveCore::plan_return(const std::vector<double>& target) {
   }
   return_from_ = command_;
   return_to_ = target;
-  return_periods_ = static_cast<std::uint32_t>(std::ceil(seconds / dt_));
+  return_periods_ = static_cast<std::uint32_t>(
+      std::min<double>(std::ceil(seconds / dt_), std::numeric_limits<std::uint32_t>::max()));
   return_done_ = 0;
   off_path_ = false;
   after_alignment_ = Mode::OFF;

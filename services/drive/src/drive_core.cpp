@@ -12,6 +12,11 @@
 namespace trunnion::drive {
 
 using idl::stream::StreamRequestKind;
+namespace {
+// Of a channel that the drive has forgotten. After the last of all epochs there would be none.
+constexpr std::uint32_t most_epochs = 1u << 24;
+}  // namespace
+
 void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   const bool first = axes_.empty();
   virtual_time_ = virtual_time;
@@ -123,7 +128,8 @@ Memory DriveCore::memory() const {
 }
 
 bool DriveCore::put(idl::stream::AxisFrame& frame) {
-  return channels_[frame.channel].window.put(frame) != stream::Arrival::differs;
+  const auto channel = channels_.find(frame.channel);
+  return channel == channels_.end() || channel->second.window.put(frame) != stream::Arrival::differs;
 }
 
 bool DriveCore::any_active() const {
@@ -142,7 +148,9 @@ void DriveCore::leave(Channel& channel) {
 }
 
 void DriveCore::request(const idl::stream::StreamRequest& request) {
-  auto& channel = channels_[request.channel];
+  const auto found = channels_.find(request.channel);
+  if (found == channels_.end()) return;
+  auto& channel = found->second;
   if (request.request == channel.request && request.epoch == channel.epoch) return;
   channel.request = request.request;
   switch (request.kind) {
@@ -168,8 +176,8 @@ void DriveCore::start(Channel& channel, const idl::stream::StreamRequest& reques
   couple_slaves();
   // A start within an epoch whose start this process did not see is a message from before it was restarted.
   const bool new_epoch = request.kind == StreamRequestKind::NEW_EPOCH;
-  const bool known =
-      new_epoch ? request.epoch > channel.epoch : channel.begun && request.epoch == channel.epoch;
+  const bool known = new_epoch ? request.epoch > channel.epoch && request.epoch - channel.epoch <= most_epochs
+                               : channel.begun && request.epoch == channel.epoch;
   if (!known) return;
   channel.epoch = request.epoch;
   channel.begun = true;
@@ -229,7 +237,8 @@ void DriveCore::step() {
   if (mode_ == Mode::OFF && enabled_)
     switch_on();
   else if (mode_ != Mode::OFF && !hardware_->enabled())
-    lose_control();
+    lose_control("The hardware has switched the drives off");
+  await_drives();
   switch (mode_) {
     case Mode::OFF:
       break;

@@ -204,7 +204,8 @@ class DriveCore {
   void exchange();
   void place_at_hardware();
   void switch_on();
-  void lose_control();
+  void await_drives();
+  void lose_control(std::string text);
   void switch_off();
   void stop_at_newest_row(std::uint64_t starved);
   void supervise();
@@ -241,9 +242,10 @@ class DriveCore {
 
   Mode mode_ = Mode::OFF;
   bool enabled_ = false;
-  bool probe_contact_ = false;  // skip input 1 was on in the period before
-  bool probe_watched_ = false;  // the probe was on in it
-  bool control_lost_ = false;   // the hardware has switched a drive off; until the alarms are reset
+  bool probe_contact_ = false;     // skip input 1 was on in the period before
+  bool probe_watched_ = false;     // the probe was on in it
+  bool control_lost_ = false;      // the hardware has switched a drive off; until the alarms are reset
+  std::uint32_t off_periods_ = 0;  // in which the drives did not come on although they are enabled
   std::uint64_t next_ = 0, tick_ = 0, starved_ = 0;
   std::vector<double> command_;   // setpoint of this period
   std::vector<double> target_;    // setpoint of cycle next_ - 1: a point of the path

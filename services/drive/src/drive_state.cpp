@@ -34,6 +34,7 @@ struct DriveState {
       if (reads || c.homing_channel_ != 0) visit("homing_channel", c.homing_channel_);
       if (reads || std::any_of(c.unsettled_.begin(), c.unsettled_.end(), [](auto n) { return n > 0; }))
         visit("unsettled", c.unsettled_);
+      if (reads || c.off_periods_ != 0) visit("off_periods", c.off_periods_);
       if (reads || !c.slaves_.empty()) visit("slaves", c.slaves_.all());
       if (reads || c.after_alignment_ != Mode::OFF) visit("after_alignment", c.after_alignment_);
     }

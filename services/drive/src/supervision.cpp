@@ -7,17 +7,27 @@
 #include "drive_core.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
+#include "timeouts.hpp"
 
 namespace trunnion::drive {
 namespace {
 constexpr double excessive = 2;  // times the limit of the following error
 }  // namespace
 
-// The hardware has switched the drives off: nothing can be braked on the path any longer.
-void DriveCore::lose_control() {
+// An emergency stop chain that is open shows itself by nothing else: its alarm can be reset all the same.
+void DriveCore::await_drives() {
+  const bool waits = mode_ == Mode::OFF && enabled_ && !control_lost_;
+  off_periods_ = waits ? off_periods_ + 1 : 0;
+  if (off_periods_ * dt_ <= drives_on_timeout) return;
+  char text[80];
+  std::snprintf(text, sizeof text, "The drives are not on %g s after their enable", drives_on_timeout);
+  lose_control(text);
+}
+
+// `text`: that the hardware has the drives off. Nothing can be braked on the path any longer.
+void DriveCore::lose_control(std::string text) {
   const auto faulty =
       std::find_if(status_.axes.begin(), status_.axes.end(), [](const auto& a) { return a.fault; });
-  std::string text = "The hardware has switched the drives off";
   if (faulty != status_.axes.end()) {
     const auto& axis = axes_[static_cast<std::size_t>(faulty - status_.axes.begin())];
     text = "The drive of axis " + axis.name + " reports a fault; the axes were switched off";

@@ -5,8 +5,10 @@
 namespace trunnion::drive {
 
 inline constexpr double missing_setpoint_timeout =
-    1.0;                                         ///< s of wall time, in virtual time, until the drive brakes
-inline constexpr double plc_timeout = 1.5;       ///< s without a sign of the PLC until the drive stops
+    1.0;                                    ///< s of wall time, in virtual time, until the drive brakes
+inline constexpr double plc_timeout = 1.5;  ///< s without a sign of the PLC until the drive stops
+inline constexpr double drives_on_timeout =
+    2;  ///< s from their enable until drives that are off are an alarm
 inline constexpr double servo_test_timeout = 5;  ///< s without its client until the drive ends a servo test
 
 }  // namespace trunnion::drive

@@ -35,5 +35,10 @@ TEST(Documents, TheTimeWithoutASignOfThePlcIsTheOneOfTheCode) {
             std::string::npos);
 }
 
+TEST(Documents, TheTimeThatDrivesTakeToComeOnIsTheOneOfTheCode) {
+  EXPECT_NE(document("hal.md").find(seconds("comes again %g s after the enable", drives_on_timeout)),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace trunnion::drive

@@ -326,6 +326,39 @@ TEST(TwoChannels, ASecondChannelThatStartsDoesNotDisturbTheFirst) {
   EXPECT_FALSE(core.any_active());
 }
 
+TEST_F(Fixture, AChannelThatTheMachineHasNotMovesNothing) {
+  core.request({9, 1, StreamRequestKind::NEW_EPOCH, 1});
+  AxisFrame foreign;
+  foreign.channel = 9, foreign.epoch = 1, foreign.count = 1, foreign.axes = {0}, foreign.setpoints = {1};
+  EXPECT_TRUE(core.put(foreign));
+  EXPECT_FALSE(core.any_active());
+  begin();
+  feed(0, 400, true);
+  run();
+  EXPECT_EQ(core.next(), 400u);
+}
+
+TEST_F(Fixture, ARequestCannotUseUpTheEpochs) {
+  core.request({0, ++number, StreamRequestKind::NEW_EPOCH, 0xffffffff});
+  EXPECT_FALSE(core.any_active());
+  begin();
+  EXPECT_TRUE(core.any_active());
+}
+
+// 1e12 mm at 60 m/min are 1.9e12 periods, more than a number of 32 bits has.
+TEST_F(Fixture, AReturnFromVeryFarEndsWithAStop) {
+  begin();
+  AxisFrame far;
+  far.epoch = epoch, far.count = 8, far.starts = far.ends = true, far.revision = 1, far.axes = {0, 1};
+  far.setpoints.assign(16, 1e12);
+  core.put(far);
+  run(false, 1000);
+  EXPECT_EQ(core.mode(), Mode::RETURNING);
+  core.set_enables({}, true);
+  run(false, 10);
+  EXPECT_EQ(core.mode(), Mode::OFF);
+}
+
 TEST_F(Fixture, PositionsAndCyclesSurviveTheProcess) {
   begin();
   feed(0, 400, true);

@@ -131,6 +131,36 @@ TEST_F(Supervision, WithoutALimitNothingIsSupervised) {
   EXPECT_EQ(alarms, Numbers{});
 }
 
+TEST_F(Supervision, DrivesThatDoNotComeOnAreAnAlarmAfterEachReset) {
+  hardware->on = false;
+  periods(1);
+  EXPECT_EQ(alarms, Numbers{alarm::drive_fault.number});
+  core.acknowledge();
+  periods(2000);
+  EXPECT_EQ(alarms.size(), 1u) << "2 s";
+  periods(1);
+  ASSERT_EQ(alarms, (Numbers{alarm::drive_fault.number, alarm::drive_fault.number}));
+  EXPECT_EQ(texts.back().substr(0, 45), "The drives are not on 2 s after their enable:");
+  periods(1);
+  EXPECT_FALSE(hardware->newest.enable);
+  periods(5000);
+  EXPECT_EQ(alarms.size(), 2u) << "once";
+  core.set_enables({1}, true);
+  core.acknowledge();
+  periods(5000);
+  EXPECT_EQ(alarms.size(), 2u) << "an emergency stop has them off";
+  core.set_enables({1}, false);
+  hardware->fault[0] = true;
+  periods(2001);
+  ASSERT_EQ(alarms.size(), 3u);
+  EXPECT_EQ(texts.back().substr(0, 36), "The drive of axis X reports a fault;");
+  hardware->fault[0] = false;
+  hardware->on = true;
+  core.acknowledge();
+  periods(1);
+  EXPECT_EQ(core.mode(), Mode::FOLLOWING);
+}
+
 // Travel to 20 mm; the setpoint rests at 0.
 TEST_F(Supervision, TheTravelHoldsForTheEncoderToo) {
   p.values[100006] = {20, ""}, p.values[100007] = {-20, ""}, p.values[100037] = {0, ""};

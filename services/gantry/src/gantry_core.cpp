@@ -23,11 +23,14 @@ bool GantryCore::process(const idl::stream::AxisFrame& in, const stream::Feedbac
                          idl::stream::AxisFrame& out) {
   const std::size_t width = in.axes.size();
   out.axes = in.axes;
-  if (pairs_.empty()) {
+  std::array<std::size_t, 32> columns{};
+  const bool has_masters =
+      std::all_of(master_index_.begin(), master_index_.end(), [&](std::size_t i) { return i < width; });
+  // No slaves, or no frame of a configured channel.
+  if (pairs_.empty() || !has_masters || width + pairs_.size() > columns.size()) {
     out.setpoints = in.setpoints;
     return true;
   }
-  std::array<std::size_t, 32> columns{};
   own_columns_ = false;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const auto own = std::find(in.axes.begin(), in.axes.end(), pairs_[k].slave);

@@ -127,6 +127,20 @@ TEST(Gantry, TheSlaveMovesWithTheChannelOfItsMaster) {
   EXPECT_FALSE(machine::axis_moves_with(gantry(), 2, 1));
 }
 
+TEST(Gantry, AFrameWithoutTheMasterPassesAsItIs) {
+  GantryCore core;
+  core.configure(gantry(), 0);
+  idl::stream::AxisFrame in = frame(0, 1, 2), out;
+  in.axes = {0}, in.setpoints = {1};
+  ASSERT_TRUE(core.process(in, {}, out));
+  EXPECT_EQ(out.axes, std::vector<std::uint16_t>{0});
+  EXPECT_EQ(out.setpoints, std::vector<double>{1});
+  in.axes.resize(32), in.setpoints.resize(32);
+  for (std::uint16_t i = 0; i < 32; ++i) in.axes[i] = static_cast<std::uint16_t>(31 - i);
+  ASSERT_TRUE(core.process(in, {}, out));
+  EXPECT_LE(out.axes.size(), 32u) << "more than a frame can have";
+}
+
 TEST(Gantry, AMissingMasterIsNamed) {
   auto p = gantry();
   p.values[102101] = {9, ""};

@@ -37,7 +37,7 @@ class Machine {
   }
   void send() {
     idl::stream::FeedbackFrame frame;
-    frame.first = 10, frame.tick = tick, frame.spindle_speed = {speed};
+    frame.first = 10, frame.tick = tick, frame.axis_count = 1, frame.spindle_speed = {speed};
     frame.channels.resize(1);
     frame.enabled = {1};
     feedback_.write(frame);

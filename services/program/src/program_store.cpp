@@ -29,7 +29,8 @@ std::string unknown(const std::string& name) { return "program '" + name + "' is
 
 }  // namespace
 
-ProgramStore::ProgramStore(Files& programs, Files& state) : programs_(programs), state_(state) {
+ProgramStore::ProgramStore(Files& programs, Files& state, std::uint64_t most_bytes)
+    : programs_(programs), state_(state), most_bytes_(most_bytes) {
   index_found_ = state_.read_kept(index_file);
   const bool found =
       index_found_.state == storage::KeptState::good || index_found_.state == storage::KeptState::previous;
@@ -265,11 +266,24 @@ std::string ProgramStore::write(const Request& request, Reply& reply, double now
     return "offset " + std::to_string(request.offset) + " is not the end of the upload at " +
            std::to_string(upload.text.size());
   if (request.data.size() > longest_chunk) return "more than " + std::to_string(longest_chunk) + " bytes";
+  check_room(request.name, request.data.size());
   programs_.append(upload.file, request.offset, request.data);
   upload.text.add(request.data);
   upload.touched = now;
   reply.offset = upload.text.size();
   return "";
+}
+
+void ProgramStore::check_room(const std::string& name, std::uint64_t bytes) const {
+  auto used = std::uint64_t{0};
+  for (const auto& [stored, program] : index_)
+    if (stored != name) used += program.entry.size;
+  for (const auto& [key, upload] : uploads_) used += upload.text.size();
+  if (used + bytes <= most_bytes_) return;
+  constexpr std::uint64_t megabyte = 1'000'000;
+  throw StorageError("Program '" + name + "' is not stored: programs have at most " +
+                     std::to_string(most_bytes_ / megabyte) + " MB in all, and the others have " +
+                     std::to_string(used / megabyte) + " MB: delete some that are not needed");
 }
 
 std::string ProgramStore::commit(const Request& request, Reply& reply) {

@@ -16,17 +16,19 @@ using machine_state::index_file;
 using machine_state::IndexFile;
 using machine_state::TextIdentity;
 
-inline constexpr std::size_t longest_chunk = 60000;  ///< bytes of one READ or WRITE
-inline constexpr std::size_t most_programs = 4096;   ///< in the store
-inline constexpr std::size_t most_uploads = 64;      ///< at the same time
-inline constexpr double upload_patience = 60;        ///< s without a WRITE after which an upload is dropped
+inline constexpr std::size_t longest_chunk = 60000;                 ///< bytes of one READ or WRITE
+inline constexpr std::size_t most_programs = 4096;                  ///< in the store
+inline constexpr std::uint64_t most_program_bytes = 8'000'000'000;  ///< 8 GB, of all programs together
+inline constexpr std::size_t most_uploads = 64;                     ///< at the same time
+inline constexpr double upload_patience = 60;  ///< s without a WRITE after which an upload is dropped
 
 class ProgramStore {
  public:
   /// `programs` holds the programs, `state` the file programs.yaml with revisions and checksums. Scans every
   /// program. One that is not in the index is adopted; one that does not match its checksum is damaged,
   /// unless the operator has accepted it. Throws StorageError, std::runtime_error with file:line:column.
-  ProgramStore(Files& programs, Files& state);
+  /// Uploads are refused when programs and uploads would have more than `most_bytes`.
+  ProgramStore(Files& programs, Files& state, std::uint64_t most_bytes = most_program_bytes);
 
   /// Programs that come with the machine: copied unless they are there or were once removed on purpose, and
   /// in the place of a damaged one whose checksum they have. Returns the names that cannot be stored.
@@ -67,6 +69,8 @@ class ProgramStore {
   std::string abort(const Request& request);
   std::string remove(const Request& request);
   std::string rename(const Request& request, Reply& reply);
+  /// Throws StorageError when there is no room for `bytes` more of an upload that becomes the program `name`.
+  void check_room(const std::string& name, std::uint64_t bytes) const;
   std::string in_use(const std::string& name) const;
   std::string find(const Request& request, Reply& reply);
   void put(const std::string& name, const TextScan& text, std::uint8_t role);
@@ -77,6 +81,7 @@ class ProgramStore {
 
   Files& programs_;
   Files& state_;
+  const std::uint64_t most_bytes_;
   Files* cycles_files_ = nullptr;
   Index index_, cycles_;
   std::map<std::string, std::uint64_t> revisions_;  ///< of every name ever used, removed ones included

@@ -115,6 +115,28 @@ TEST(ProgramStore, AnUploadBecomesAProgramWithRevisionSizeChecksumAndLines) {
   EXPECT_EQ(ProgramStore(files, state).list(), store.list()) << "revisions survive a restart";
 }
 
+TEST(ProgramStore, ProgramsHaveNoMoreThanTheirBytesInAll) {
+  MemoryFiles files, state;
+  ProgramStore store(files, state, 3000);
+  ASSERT_TRUE(store.apply(request(Operation::BEGIN_UPLOAD, "big"), 0).accepted);
+  auto write = request(Operation::WRITE, "big");
+  for (write.data.resize(1000); write.offset < 3000; write.offset += write.data.size())
+    ASSERT_TRUE(store.apply(write, 0).accepted);
+  write.data.resize(1);
+  const auto refused = store.apply(write, 0);
+  EXPECT_EQ(refused.alarm, alarm::storage_failed.number);
+  EXPECT_THAT(refused.reason, HasSubstr("programs have at most 0 MB in all"));
+  EXPECT_FALSE(upload(store, "small", "M30\n").accepted) << "uploads count";
+  ASSERT_TRUE(store.apply(request(Operation::ABORT_UPLOAD, "big"), 0).accepted);
+  const std::string half(1000, 'N');
+  ASSERT_TRUE(upload(store, "a", half).accepted);
+  ASSERT_TRUE(upload(store, "b", half).accepted);
+  EXPECT_TRUE(upload(store, "a", half + half).accepted) << "in the place of another text";
+  EXPECT_FALSE(upload(store, "c", "M30\n").accepted);
+  ASSERT_TRUE(store.apply(request(Operation::REMOVE, "b"), 0).accepted);
+  EXPECT_TRUE(upload(store, "c", "M30\n").accepted);
+}
+
 // What a program may change: 1 is a setter, 2 a builder.
 TEST(ProgramStore, AProgramHasTheRoleOfWhoStoredItLast) {
   MemoryFiles files, state, delivered;

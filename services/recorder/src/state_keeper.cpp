@@ -3,6 +3,7 @@
 
 #include "bus/codec.hpp"
 #include "contracts/types.hpp"
+#include "stream/whole_frame.hpp"
 
 namespace trunnion::recorder {
 namespace {
@@ -23,7 +24,7 @@ void StateKeeper::see(const Message& message) {
 
 void StateKeeper::see_feedback(const Message& message) {
   idl::stream::FeedbackFrame frame;
-  if (!bus::decode(message.cdr, frame)) return;
+  if (!bus::decode(message.cdr, frame) || !stream::fault_of(frame).empty()) return;
   feedback_.push_back({message, frame.count});
   rows_ += frame.count;
   while (feedback_.size() > kept_feedback || rows_ - feedback_.front().rows >= kept_rows) {

@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include "bus/bus.hpp"
@@ -16,6 +18,7 @@
 #include "contracts/topics.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_reader.hpp"
+#include "storage/temporary_directory.hpp"
 #include "testing_support/eventually.hpp"
 
 namespace trunnion::recorder {
@@ -252,6 +255,60 @@ INSTANTIATE_TEST_SUITE_P(Vendors, RecorderProcess,
                          testing::Values(std::pair{bus::Vendor::cyclonedds, 56u},
                                          std::pair{bus::Vendor::fastdds, 14u}),
                          [](const auto& it) { return std::string(bus::to_string(it.param.first)); });
+
+// One of two services is silent, as one that hangs, and then answers.
+TEST(RecorderStart, NamesAServiceThatDoesNotGiveItsStateAndAsksUntilItDoes) {
+  constexpr std::uint32_t domain = 19;
+  const storage::TemporaryDirectory directory("trunnion-recorder-test");
+  const auto file = (directory.path() / "silent.mcap").string();
+  bus::Bus bus(bus::Vendor::cyclonedds, {domain});
+  auto clusters = bus.writer(topics::cluster);
+  auto states = bus.writer(topics::service_state);
+  auto snapshots = bus.writer(topics::service_snapshot);
+  auto requests = bus.reader(topics::snapshot_request);
+  constexpr std::uint32_t silent = 1, quick = 2;
+  idl::service::Cluster cluster;
+  for (const auto instance : {silent, quick}) {
+    idl::service::ClusterService listed;
+    listed.instance = instance;
+    listed.service = instance == silent ? "parameters" : "kinematics";
+    listed.pid = getpid();
+    cluster.services.push_back(listed);
+    idl::service::ServiceState state;
+    state.instance = instance;
+    states.write(state);
+  }
+  clusters.write(cluster);
+  std::atomic<bool> answers = false, over = false;
+  std::thread services([&] {
+    idl::service::SnapshotRequest request;
+    idl::service::ServiceSnapshot snapshot;
+    snapshot.parts = 1;
+    for (; !over; bus.signal().wait(0.01))
+      while (requests.take(request))
+        for (const auto instance : {silent, quick}) {
+          if (instance == silent && !answers) continue;
+          snapshot.instance = instance;
+          snapshot.time = static_cast<std::uint64_t>(bus::source_time());
+          snapshots.write(snapshot);
+        }
+  });
+  Process recorder({RECORDER, "--output", file, "--domain", std::to_string(domain), "--json", "--topics",
+                    "cluster,service_state,snapshot_request,service_snapshot"});
+  std::set<std::string> said{recorder.line(), recorder.line()};
+  EXPECT_EQ(said,
+            (std::set<std::string>{
+                "recording " + file + "\n",
+                "trunnion-recorder: warning: parameters has not given its state within 15 s: it is asked "
+                "again, and cannot be verified before it answers\n"}));
+  answers = true;
+  EXPECT_EQ(recorder.line(), "trunnion-recorder: parameters has given its state\n");
+  over = true;
+  services.join();
+  recorder.signal(SIGTERM);
+  EXPECT_EQ(bus::Json::parse(recorder.line())["without_state"], bus::Json::array());
+  EXPECT_EQ(recorder.wait(), 0);
+}
 
 TEST(RecorderCommandLine, RefusesToStartWithTooLittleSpace) {
   const std::string file = testing::TempDir() + "/unused.mcap";

@@ -106,7 +106,7 @@ function byStream(path: string, body: object): Promise<Answer | undefined> {
 /** A request that stops something: by the stream, and over HTTP when that does not answer. */
 export async function stop(what: string, path: string, body: object = {}): Promise<boolean> {
   const answer = (await byStream(path, body)) ?? (await post(path, body));
-  if (!answer.ok) tell(`${what}: ${answer.reason}`, true);
+  if (answer.reason) tell(`${what}: ${answer.reason}`, true);
   return answer.ok;
 }
 

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/stage_service.hpp"
+
+#include <gtest/gtest.h>
+
+#include "testing_support/eventually.hpp"
+
+namespace trunnion::stream {
+namespace {
+
+using idl::stream::AxisFrame;
+using idl::stream::PathFrame;
+using testing_support::eventually;
+
+constexpr std::uint32_t stage_domain = 70;
+
+/// X as it is.
+class FirstColumn : public StageCore<PathFrame> {
+ public:
+  void configure(const machine::Parameters&, std::uint16_t) override {}
+  bool process(const PathFrame& in, const FeedbackWindow&, AxisFrame& out) override {
+    out.axes = {0};
+    out.setpoints.clear();
+    for (std::uint32_t i = 0; i < in.count; ++i) out.setpoints.push_back(in.setpoints[9 * i]);
+    return true;
+  }
+  void load(std::span<const double>) override {}
+  void save(StateValues& state) const override { state.clear(); }
+};
+
+PathFrame stage_input(std::uint32_t epoch, std::uint64_t first, std::uint64_t revision) {
+  PathFrame f;
+  f.epoch = epoch, f.first = first, f.count = 8, f.revision = revision, f.starts = true;
+  f.setpoints.assign(72, 2), f.lines.assign(8, 1);
+  return f;
+}
+
+/// A stage in the midst of a drive, a channel and parameters that the test plays.
+struct StageInACluster : testing::Test {
+  StageInACluster()
+      : node(options()),
+        outside(bus::Vendor::cyclonedds, {stage_domain}),
+        parameters(outside.writer(topics::parameter_set)),
+        feedback(outside.writer(topics::feedback_frame)),
+        input(outside.writer(topics::path_frame)),
+        output(outside.reader(topics::kinematics_frame)),
+        stage(node, Stage::KINEMATICS, topics::path_frame, topics::kinematics_frame,
+              [] { return std::make_unique<FirstColumn>(); }) {
+    idl::parameters::ParameterSet set;
+    set.revision = 1;
+    set.values = {{100000, 0, "X"}, {40001, 0, ""}};
+    parameters.write(set);
+    EXPECT_TRUE(until([&] { return stage.health().in_step && stage.health().detail.empty(); }));
+  }
+  static service::Options options() {
+    service::Options options;
+    options.service = "kinematics";
+    options.network.domain = stage_domain;
+    options.machine.services.resize(1);
+    options.machine.services[0].service = "channel";
+    return options;
+  }
+  void pump() {
+    idl::stream::FeedbackFrame frame;
+    frame.first = 100, frame.axis_count = 1, frame.position = {0};
+    frame.channels.resize(1);
+    frame.channels[0].epoch = drive_epoch, frame.channels[0].next = 100;
+    feedback.write(frame);
+    stage.pump();
+  }
+  template <class Condition>
+  bool until(Condition condition) {
+    return eventually([&] {
+      pump();
+      return condition();
+    });
+  }
+  bool is_computed(std::uint32_t epoch) {
+    AxisFrame frame;
+    while (output.take(frame))
+      if (frame.epoch == epoch) return true;
+    return false;
+  }
+
+  service::Node node;
+  bus::Bus outside;
+  bus::Writer<idl::parameters::ParameterSet> parameters;
+  bus::Writer<idl::stream::FeedbackFrame> feedback;
+  bus::Writer<PathFrame> input;
+  bus::Reader<AxisFrame> output;
+  std::uint32_t drive_epoch = 3;
+  StageService<PathFrame> stage;
+};
+
+TEST_F(StageInACluster, GoesOnAfterFramesThatAreNotWholeOrOfNoChannel) {
+  auto hostile = stage_input(4, 100, 1);
+  hostile.count = 0;
+  input.write(hostile);
+  hostile = stage_input(4, 100, 1);
+  hostile.channel = 31;
+  input.write(hostile);
+  input.write(stage_input(4, 100, 1));
+  EXPECT_TRUE(until([&] { return is_computed(4); }));
+  EXPECT_EQ(node.bus().refusals().at(topics::path_frame.name).count, 2u);
+  EXPECT_TRUE(stage.health().in_step) << stage.health().detail;
+}
+
+TEST_F(StageInACluster, AResetEndsTheWaitForParametersThatNobodyHas) {
+  input.write(stage_input(4, 100, 77));
+  EXPECT_TRUE(until([&] { return node.alarms().active(alarm::revision_unknown, 0); }));
+  node.reset_alarms(stage, service::all_channels);
+  EXPECT_TRUE(until([&] { return !node.alarms().active(alarm::revision_unknown, 0); }));
+  input.write(stage_input(4, 100, 1));
+  EXPECT_TRUE(until([&] { return is_computed(4); }));
+}
+
+TEST_F(StageInACluster, AResetLeadsBackFromAForeignStart) {
+  input.write(stage_input(4'000'000'000, 5000, 1));
+  EXPECT_TRUE(until([&] { return is_computed(4'000'000'000); }));
+  node.reset_alarms(stage, service::all_channels);
+  // Until the stage has heard of the drive anew its starts are stale: a channel starts again and again.
+  EXPECT_TRUE(until([&] {
+    input.write(stage_input(4, 100, 1));
+    return is_computed(4);
+  }));
+}
+
+}  // namespace
+}  // namespace trunnion::stream
