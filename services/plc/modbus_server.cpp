@@ -23,9 +23,9 @@ using Clock = std::chrono::steady_clock;
 using st::ModbusTable;
 
 constexpr std::size_t most_clients = 8;
-constexpr int poll_period = 50;                 // ms until the end of the thread is seen
-constexpr std::uint32_t byte_timeout = 100000;  // us that the rest of a request may take
-constexpr double listen_period = 0.5;           // s between two attempts to listen
+constexpr int poll_period = 50;           // ms until the end of the thread is seen
+constexpr std::size_t least_request = 8;  // bytes: the header of 7 and a function
+constexpr double listen_period = 0.5;     // s between two attempts to listen
 constexpr int silent_attempts = 3;
 
 struct CloseServer {
@@ -59,6 +59,14 @@ class ServerConnection : public ModbusLink::Connection {
   ~ServerConnection() override { close_all(); }
 
  private:
+  using Query = std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH>;
+  struct Client {
+    int socket = -1;
+    std::string address;
+    Clock::time_point heard;
+    std::size_t wakes_with = 1;  ///< bytes
+  };
+
   void run(const std::stop_token& stop) override {
     for (int attempts = 0; !stop.stop_requested();) {
       if (!listens() && !listen()) {
@@ -99,8 +107,6 @@ class ServerConnection : public ModbusLink::Connection {
     context_.reset(modbus_new_tcp_pi(server_.host.c_str(), std::to_string(server_.port).c_str()));
     if (!context_ || !mapping_) return false;
     put_losses_into_tables();
-    modbus_set_byte_timeout(context_.get(), 0, byte_timeout);
-    modbus_set_indication_timeout(context_.get(), 0, byte_timeout);
     // Also the pause behind a request that is refused.
     modbus_set_response_timeout(context_.get(), 0, 1000);
     listening_ = modbus_tcp_pi_listen(context_.get(), static_cast<int>(most_clients));
@@ -118,12 +124,11 @@ class ServerConnection : public ModbusLink::Connection {
 
   void serve() {
     std::vector<pollfd> waiting = {{listening_, POLLIN, 0}};
-    for (const auto& client : clients_) waiting.push_back({client.socket, POLLIN, 0});
+    for (const auto& client : clients_) waiting.push_back({client.socket, POLLIN | POLLRDHUP, 0});
     if (poll(waiting.data(), waiting.size(), poll_period) <= 0) return;
     for (std::size_t i = clients_.size(); i-- > 0;) {
-      if (waiting[i + 1].revents == 0) continue;
-      clients_[i].heard = Clock::now();
-      if (!answer(clients_[i].socket)) end(i);
+      const auto happened = waiting[i + 1].revents;
+      if (happened != 0 && !hear(clients_[i], (happened & ~POLLIN) != 0)) end(i);
     }
     if (waiting[0].revents != 0) accept_client();
   }
@@ -136,12 +141,15 @@ class ServerConnection : public ModbusLink::Connection {
   void accept_client() {
     sockaddr_storage address{};
     socklen_t size = sizeof address;
-    const int socket = accept4(listening_, reinterpret_cast<sockaddr*>(&address), &size, SOCK_CLOEXEC);
+    // An answer that the client does not take is an error, which ends the connection.
+    const int socket =
+        accept4(listening_, reinterpret_cast<sockaddr*>(&address), &size, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (socket < 0) return;
     std::array<char, NI_MAXHOST> host{};
     getnameinfo(reinterpret_cast<sockaddr*>(&address), size, host.data(), host.size(), nullptr, 0,
                 NI_NUMERICHOST);
     clients_.push_back({socket, host.data(), Clock::now()});
+    wake_with(clients_.back(), least_request);
     if (clients_.size() > most_clients) end(superfluous());
   }
 
@@ -158,13 +166,36 @@ class ServerConnection : public ModbusLink::Connection {
                                     clients_.begin());
   }
 
-  // False when the connection has ended, or sends what is no Modbus.
-  bool answer(int socket) {
-    std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> query{};
+  // So that half of a request does not wake the thread again and again.
+  static void wake_with(Client& client, std::size_t bytes) {
+    if (client.wakes_with == bytes) return;
+    client.wakes_with = bytes;
+    const int mark = static_cast<int>(bytes);
+    setsockopt(client.socket, SOL_SOCKET, SO_RCVLOWAT, &mark, sizeof mark);
+  }
+
+  // A request waits in the socket until it is whole: half of one holds up nobody. False when the connection
+  // has ended, or sends what is no Modbus.
+  bool hear(Client& client, bool ends) {
+    Query query{};
+    const auto there = recv(client.socket, query.data(), query.size(), MSG_PEEK);
+    auto length = least_request;
+    if (there >= static_cast<ssize_t>(length))
+      length = std::clamp<std::size_t>(word_at(&query[4]) + 6u, length, query.size());
+    if (there < static_cast<ssize_t>(length)) {
+      wake_with(client, length);
+      return !ends;
+    }
+    query = {};
+    if (recv(client.socket, query.data(), length, 0) != static_cast<ssize_t>(length)) return false;
+    client.heard = Clock::now();
+    wake_with(client, least_request);
+    return answer(client.socket, query, static_cast<int>(length));
+  }
+
+  bool answer(int socket, const Query& query, int length) {
+    if (word_at(&query[2]) != 0 || word_at(&query[4]) + 6 != length) return false;
     modbus_set_socket(context_.get(), socket);
-    const int length = modbus_receive(context_.get(), query.data());
-    if (length == 0) return true;
-    if (length < 8 || word_at(&query[2]) != 0 || word_at(&query[4]) + 6 != length) return false;
     refresh();
     bool writes = false;
     if (const int exception = check(query.data(), length, writes); exception != 0)
@@ -191,6 +222,8 @@ class ServerConnection : public ModbusLink::Connection {
     };
     writes = function == 5 || function == 6 || function == 15 || function == 16 || function == 22 ||
              function == 23;
+    const bool has_one_length = (function >= 1 && function <= 6) || function == 22;
+    if (has_one_length && bytes != (function == 22 ? 6 : 4)) return MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE;
     switch (function) {
       case 1:
         return is_good(ModbusTable::coils, word(0), word(1));
@@ -264,11 +297,6 @@ class ServerConnection : public ModbusLink::Connection {
   std::unique_ptr<modbus_mapping_t, FreeMapping> mapping_;
   std::unique_ptr<modbus_t, CloseServer> context_;
   int listening_ = -1;
-  struct Client {
-    int socket = -1;
-    std::string address;
-    Clock::time_point heard;
-  };
   std::vector<Client> clients_;
   Clock::time_point written_;
 };

@@ -84,13 +84,27 @@ class Asking {
 
   bool connected() const { return connected_; }
   void send_bytes(const Bytes& bytes) { send_all(socket_, bytes); }
+  /// False when the connection is broken, or nobody takes the bytes for as long as an answer may take.
+  bool sends(const Bytes& bytes) const {
+    pollfd one{socket_, POLLOUT, 0};
+    return poll(&one, 1, 2000) > 0 &&
+           send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT) > 0;
+  }
+  /// A frame with its header; empty when there is none.
+  Bytes next() const {
+    auto frame = receive(socket_, 7).value_or(Bytes{});
+    const auto rest = frame.empty() ? std::nullopt : receive(socket_, word(frame, 4) - 1u);
+    if (!rest) return {};
+    frame.insert(frame.end(), rest->begin(), rest->end());
+    return frame;
+  }
   /// Function and data of the answer; empty when there is none.
   Bytes ask(const Bytes& data) {
     ++transaction_;
     send_all(socket_, framed(transaction_, 1, data));
-    const auto header = receive(socket_, 7);
-    if (!header || word(*header, 0) != transaction_ || word(*header, 2) != 0) return {};
-    return receive(socket_, word(*header, 4) - 1u).value_or(Bytes{});
+    const auto frame = next();
+    if (frame.empty() || word(frame, 0) != transaction_ || word(frame, 2) != 0) return {};
+    return {frame.begin() + 7, frame.end()};
   }
 
  private:

@@ -281,6 +281,55 @@ TEST(ModbusServer, IdleConnectionsShutNobodyOut) {
   EXPECT_FALSE(answers(*idle.front())) << "the one that had been silent for longest was ended";
 }
 
+// A slow device: the rest of a request comes after others have been answered for as long as they like.
+TEST(ModbusServer, HalfOfARequestHoldsUpNobodyAndMayBeCompleted) {
+  const int port = free_port();
+  Linked plc(server_file(port));
+  Asking slow(port), good(port);
+  const auto request = framed(7, 1, {2, 0, 100, 0, 8});
+  for (std::size_t half = 1; half < request.size(); ++half) {
+    const auto middle = request.begin() + static_cast<std::ptrdiff_t>(half);
+    slow.send_bytes({request.begin(), middle});
+    for (int i = 0; i < 20; ++i) ASSERT_EQ(good.ask({2, 0, 100, 0, 8}), (Bytes{2, 1, 0}));
+    slow.send_bytes({middle, request.end()});
+    ASSERT_EQ(slow.next(), framed(7, 1, {2, 1, 0})) << "after " << half << " bytes";
+  }
+}
+
+TEST(ModbusServer, RequestsThatArriveTogetherAreAnsweredOneByOne) {
+  const int port = free_port();
+  Linked plc(server_file(port));
+  Asking other(port);
+  auto both = framed(1, 1, {2, 0, 100, 0, 8});
+  const auto second = framed(2, 1, {2, 0, 99, 0, 8});
+  both.insert(both.end(), second.begin(), second.end());
+  other.send_bytes(both);
+  EXPECT_EQ(other.next(), framed(1, 1, {2, 1, 0}));
+  EXPECT_EQ(other.next(), framed(2, 1, {0x82, 2}));
+}
+
+// Answers that nobody reads fill the buffers of both sides; then the connection ends.
+TEST(ModbusServer, AClientThatReadsNoAnswersHoldsUpNobody) {
+  const int port = free_port();
+  Linked plc(server_file(port));
+  Asking deaf(port), good(port);
+  const auto request = framed(1, 1, {2, 0, 100, 0, 8});
+  while (deaf.sends(request)) {
+  }
+  EXPECT_EQ(good.ask({2, 0, 100, 0, 8}), (Bytes{2, 1, 0}));
+}
+
+TEST(ModbusServer, ARequestOfAWrongLengthIsRefused) {
+  const int port = free_port();
+  Linked plc(server_file(port));
+  Asking other(port);
+  EXPECT_EQ(other.ask({5, 0, 12, 0}), (Bytes{0x85, 3}));
+  EXPECT_EQ(other.ask({2, 0, 100, 0, 8, 0}), (Bytes{0x82, 3}));
+  EXPECT_EQ(other.ask({22, 0, 0, 0xf0, 0xff, 0}), (Bytes{0x96, 3}));
+  EXPECT_EQ(other.ask({2}), (Bytes{0x82, 3}));
+  EXPECT_EQ(other.ask({2, 0, 100, 0, 8}), (Bytes{2, 1, 0}));
+}
+
 TEST(ModbusServer, APortThatIsTakenIsNamed) {
   const int port = free_port();
   Device device(port);
