@@ -8,10 +8,10 @@
 
 namespace trunnion::launcher {
 
-SilentHosts::Silences SilentHosts::look(const std::vector<RemoteService>& services, double now) {
-  Silences silences;
+SilentHosts::Hosts SilentHosts::look(const std::vector<RemoteService>& services, double now) {
+  Hosts hosts;
   for (const auto& service : services) {
-    auto& host = silences[service.host];
+    auto& host = hosts[service.host];
     ++host.services;
     if (!service.fault->lost()) {
       since_.erase(service.instance);
@@ -21,18 +21,25 @@ SilentHosts::Silences SilentHosts::look(const std::vector<RemoteService>& servic
     since_.try_emplace(service.instance, now);
     if (service.fault->holds()) host.names += (host.names.empty() ? "" : ", ") + service.name;
   }
-  for (const auto& [name, host] : silences) {
-    if (host.lost == host.services) silent_.insert(name);
+  return hosts;
+}
+
+// What is said of a silence stays as it began while the services come back one after the other.
+void SilentHosts::follow(const Hosts& hosts, double now) {
+  for (const auto& [name, host] : hosts) {
+    if (host.lost == host.services) silent_.try_emplace(name, Silence{now, host.names});
     if (host.lost == 0) silent_.erase(name);
   }
-  return silences;
+  // It is this one's cable that is cut, rather than those of all others.
+  if (hosts.size() > 1 && silent_.size() == hosts.size()) alone_ = true;
+  if (silent_.empty()) alone_ = false;
 }
 
 // Of a host without services nothing can be heard.
-bool SilentHosts::reports(const Silences& silences) const {
-  return *std::find_if(hosts_.begin(), hosts_.end(), [&](const std::string& host) {
-    return host == here_ || (silences.contains(host) && !silent_.contains(host));
-  }) == here_;
+bool SilentHosts::reports(const Hosts& hosts) const {
+  return alone_ || *std::find_if(hosts_.begin(), hosts_.end(), [&](const std::string& host) {
+           return host == here_ || (hosts.contains(host) && !silent_.contains(host));
+         }) == here_;
 }
 
 std::uint32_t SilentHosts::instance_of(const std::string& host) const {
@@ -40,29 +47,29 @@ std::uint32_t SilentHosts::instance_of(const std::string& host) const {
          static_cast<std::uint32_t>(std::find(hosts_.begin(), hosts_.end(), host) - hosts_.begin());
 }
 
+void SilentHosts::add_hosts(double now, std::vector<AlarmCause>& causes) const {
+  if (alone_) {
+    causes.push_back({&alarm::service_lost, instance_of(here_),
+                      "Host " + here_ + " hears no other host: check its network"});
+    return;
+  }
+  for (const auto& [name, silence] : silent_)
+    if (!silence.names.empty() && now - silence.since >= settles_in)
+      causes.push_back({&alarm::service_lost, instance_of(name),
+                        "Host " + name + " is silent, and with it " + silence.names +
+                            ": check its network and whether it runs"});
+}
+
 void SilentHosts::add_causes(const std::vector<RemoteService>& services, double now,
                              std::vector<AlarmCause>& causes) {
   if (services.empty()) return;
-  const auto silences = look(services, now);
-  if (!reports(silences)) return;
-  // It is this one's cable that is cut, rather than those of all others.
-  const bool alone = silences.size() > 1 && silent_.size() == silences.size();
-  std::string others;
-  for (const auto& [name, host] : silences) {
-    if (!silent_.contains(name) || host.names.empty()) continue;
-    others += (others.empty() ? "" : "; ") + name + " with " + host.names;
-    if (!alone)
-      causes.push_back({&alarm::service_lost, instance_of(name),
-                        "Host " + name + " is silent, and with it " + host.names +
-                            ": check its network and whether it runs"});
-  }
-  if (alone && !others.empty())
-    causes.push_back({&alarm::service_lost, instance_of(here_),
-                      "Host " + here_ + " hears no other host: check its network (" + others + ")"});
+  const auto hosts = look(services, now);
+  follow(hosts, now);
+  if (!reports(hosts)) return;
+  add_hosts(now, causes);
   for (const auto& service : services) {
-    if (service.fault->holds() &&
-        (silent_.contains(service.host) ||
-         (service.fault->lost() && now - since_.at(service.instance) < alone_after)))
+    if (service.fault->holds() && (silent_.contains(service.host) ||
+                                   (service.fault->lost() && now - since_.at(service.instance) < settles_in)))
       continue;
     service.fault->add_causes(service.instance, causes);
   }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -21,8 +20,9 @@ struct RemoteService {
 
 class SilentHosts {
  public:
-  /// s that a service must be silent alone: those of a host fall silent one after the other.
-  static constexpr double alone_after = 0.5;
+  /// s that a silence must last until it is reported: the services of a host, and hosts behind one cable,
+  /// fall silent one after the other.
+  static constexpr double settles_in = 0.5;
 
   /// `hosts` in the order of machine.yaml, `here` is this one.
   SilentHosts(std::vector<std::string> hosts, std::string here)
@@ -33,18 +33,25 @@ class SilentHosts {
   void add_causes(const std::vector<RemoteService>& services, double now, std::vector<AlarmCause>& causes);
 
  private:
-  struct Silence {
+  struct Host {
     std::size_t services = 0, lost = 0;
-    std::string names;  ///< of those without another replica
+    std::string names;  ///< of those that are lost and whose loss holds the channels
   };
-  using Silences = std::map<std::string, Silence>;  // by host
-  Silences look(const std::vector<RemoteService>& services, double now);
-  bool reports(const Silences& silences) const;
+  struct Silence {
+    double since = 0;
+    std::string names;
+  };
+  using Hosts = std::map<std::string, Host>;
+  Hosts look(const std::vector<RemoteService>& services, double now);
+  void follow(const Hosts& hosts, double now);
+  bool reports(const Hosts& hosts) const;
+  void add_hosts(double now, std::vector<AlarmCause>& causes) const;
   std::uint32_t instance_of(const std::string& host) const;
 
   std::vector<std::string> hosts_;
   std::string here_;
-  std::set<std::string> silent_;           // as a whole, until all of their services are back
+  std::map<std::string, Silence> silent_;  // as a whole, until all of their services are back
+  bool alone_ = false;                     // there was no other, until there are all
   std::map<std::uint32_t, double> since_;  // when a service that is lost was found so
 };
 

@@ -55,40 +55,63 @@ class Host {
 
 TEST(SilentHosts, AHostThatIsCutOffIsOneAlarmOfTheFirstThatDoesNotHearItAndOneOfItsOwn) {
   Host control("control"), motion("motion"), drives("drives");
-  for (auto* host : {&control, &motion}) host->lose("drives");
+  for (auto* host : {&control, &motion}) {
+    host->lose("drives");
+    EXPECT_THAT(host->texts(10), IsEmpty());
+  }
   for (const auto* other : {"control", "motion"}) drives.lose(other);
-  const auto causes = control.causes(10);
+  const auto causes = control.causes(10.5);
   ASSERT_EQ(causes.size(), 1u);
   EXPECT_EQ(causes[0].alarm, &alarm::service_lost);
   EXPECT_EQ(causes[0].part, cluster::launcher_instance + 2);
   EXPECT_EQ(causes[0].text,
             "Host drives is silent, and with it drive: check its network and whether it runs");
-  EXPECT_THAT(motion.texts(10), IsEmpty());
-  EXPECT_THAT(drives.texts(10),
-              ElementsAre("Host drives hears no other host: check its network (control with channel 0, plc; "
-                          "motion with kinematics, gantry, compensation)"));
+  EXPECT_THAT(motion.texts(10.5), IsEmpty());
+  EXPECT_THAT(drives.texts(10), ElementsAre("Host drives hears no other host: check its network"));
+  // The others come back one after the other.
+  for (const auto* other : {"plc", "gantry", "compensation", "channel 0"}) {
+    drives.hear(other);
+    EXPECT_THAT(drives.texts(13), ElementsAre("Host drives hears no other host: check its network"));
+  }
+  for (const auto* other : {"control", "motion"}) drives.hear(other);
+  EXPECT_THAT(drives.texts(13.2), IsEmpty());
+}
+
+// The first host's services are the first to be missed in one case, the second's in the other.
+TEST(SilentHosts, OfAHostThatMissesTheOthersOneAfterTheOtherNothingElseIsSaid) {
+  for (const auto& [first, second] : {std::pair("control", "motion"), std::pair("motion", "control")}) {
+    Host drives("drives");
+    drives.lose(first);
+    EXPECT_THAT(drives.texts(10), IsEmpty());
+    EXPECT_THAT(drives.texts(10.2), IsEmpty());
+    drives.lose(second);
+    EXPECT_THAT(drives.texts(10.3), ElementsAre("Host drives hears no other host: check its network"));
+  }
 }
 
 TEST(SilentHosts, TheFirstHostIsReportedByTheSecondAlone) {
   Host motion("motion"), drives("drives");
-  for (auto* host : {&motion, &drives}) host->lose("control");
-  EXPECT_THAT(motion.texts(10), ElementsAre(HasSubstr("Host control is silent, and with it channel 0, plc")));
-  EXPECT_THAT(drives.texts(10), IsEmpty());
+  for (auto* host : {&motion, &drives}) host->lose("control"), host->causes(10);
+  EXPECT_THAT(motion.texts(10.5),
+              ElementsAre(HasSubstr("Host control is silent, and with it channel 0, plc")));
+  EXPECT_THAT(drives.texts(10.5), IsEmpty());
 }
 
 // Heartbeats are 0.25 s apart, and services of a host that is heard again come back one after the other.
 TEST(SilentHosts, ServicesThatFallSilentAndComeBackOneAfterTheOtherAreNoAlarmsOfTheirOwn) {
   Host control("control");
-  control.lose("kinematics");
-  EXPECT_THAT(control.texts(10), IsEmpty());
-  control.lose("gantry");
-  EXPECT_THAT(control.texts(10.2), IsEmpty());
-  control.lose("compensation");
-  EXPECT_THAT(control.texts(10.3), ElementsAre(HasSubstr("Host motion is silent")));
+  double now = 10;
+  for (const auto* service : {"kinematics", "gantry", "compensation"}) {
+    control.lose(service);
+    EXPECT_THAT(control.texts(now += 0.1), IsEmpty());
+  }
+  const auto whole =
+      ElementsAre(HasSubstr("Host motion is silent, and with it kinematics, gantry, compensation"));
+  EXPECT_THAT(control.texts(now += 0.5), whole);
   control.hear("gantry");
-  EXPECT_THAT(control.texts(14), ElementsAre(HasSubstr("with it kinematics, compensation")));
+  EXPECT_THAT(control.texts(now += 3), whole);
   control.hear("motion");
-  EXPECT_THAT(control.texts(14.1), IsEmpty());
+  EXPECT_THAT(control.texts(now), IsEmpty());
 }
 
 TEST(SilentHosts, OneServiceThatIsSilentAloneIsNamed) {
