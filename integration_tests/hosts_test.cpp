@@ -271,6 +271,31 @@ TEST_F(Hosts, ACableCutForFiftyMillisecondsIsNotNoticedAndForASecondIsAStopOnThe
   hosts.leave();
 }
 
+TEST_F(Hosts, AHostThatIsCutOffForThreeSecondsIsOneAlarmOnEitherSideAndCanBeReset) {
+  const Machines machines(64);
+  ThreeHosts hosts;
+  start(hosts, domain, machines.three(), "--time virtual");
+  hosts.enter("control");
+  {
+    Cluster cluster(on_control(domain));
+    hosts.expect("cut", " motion 3");
+    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion is silent, and with it "); }))
+        << cluster.told();
+    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion hears no other host"); }))
+        << cluster.told();
+    ASSERT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
+    ASSERT_TRUE(cluster.until([&] {
+      cluster.reset_alarms();
+      return cluster.active_alarms().empty();
+    })) << cluster.told();
+    std::set<std::pair<std::uint32_t, std::uint32_t>> lost;  // who said it, of what
+    for (const auto& alarm : cluster.history)
+      if (alarm.number == 100) lost.insert({alarm.instance, alarm.part});
+    EXPECT_EQ(lost.size(), 2u) << cluster.told();
+  }
+  hosts.leave();
+}
+
 // Network namespaces have run directories and loopbacks of their own here, so only the domain shows the
 // other.
 TEST_F(Hosts, AnotherMachineOrTheSameHostTwiceIsRefusedInADomainThatAnotherHostUses) {
