@@ -263,6 +263,7 @@ void Api::send_channel(const Match& match, const Json& body, const std::optional
       }));
     };
     if (motion == commands::Motion::stops) {
+      links.withdraw_starts(request);
       links.repeat_only(request);
       return links.channel.submit_stop(request, answer, now);
     }

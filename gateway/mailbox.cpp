@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "commands/command_table.hpp"
+
 namespace trunnion::gateway {
 
 Links::Links(bus::Bus& bus)
@@ -42,6 +44,19 @@ void Links::withdraw_stops(const idl::channel::ChannelRequest& start) {
   idl::channel::ChannelReply reply{};
   reply.reason = "not repeated: an order that starts motion followed before the channel answered";
   channel.withdraw([&](const auto& other) { return other.channel == start.channel; }, reply);
+}
+
+void Links::withdraw_starts(const idl::channel::ChannelRequest& stop) {
+  using idl::channel::CommandKind;
+  idl::channel::ChannelReply reply{};
+  reply.reason = "not repeated: an order that stops motion followed before the channel answered";
+  channel.cease(
+      [&](const auto& other) {
+        return other.channel == stop.channel &&
+               commands::motion_of(other.command) == commands::Motion::starts &&
+               (stop.command != CommandKind::JOG_STOP || other.command == CommandKind::JOG_AXIS);
+      },
+      reply);
 }
 
 void Links::repeat_only(const idl::channel::ChannelRequest& stop) {

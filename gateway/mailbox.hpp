@@ -57,6 +57,8 @@ struct Links {
 
   /// Before `start` is sent: stops of its channel are not repeated any more.
   void withdraw_stops(const idl::channel::ChannelRequest& start);
+  /// Before `stop` is sent: a start of its channel that was lost until now must not arrive behind it.
+  void withdraw_starts(const idl::channel::ChannelRequest& stop);
   /// Before `stop` is sent: the same one of before need not be repeated beside it.
   void repeat_only(const idl::channel::ChannelRequest& stop);
 

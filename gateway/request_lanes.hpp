@@ -65,8 +65,18 @@ class RequestLanes {
   void withdraw(Which which, const std::optional<Reply>& otherwise = {}) {
     for (auto& one : under_way_) {
       if (!one.told_at || !which(one.request) || (one.done && !otherwise)) continue;
-      one.due = std::numeric_limits<double>::infinity();
       one.until = *one.told_at;
+      one.otherwise = otherwise;
+      if (one.repeated) one.due = never;
+    }
+  }
+  /// Requests that `which` chooses and that no one has answered are not sent any more; `otherwise` is their
+  /// answer when none comes.
+  template <class Which>
+  void cease(Which which, const Reply& otherwise) {
+    for (auto& one : under_way_) {
+      if (one.told_at || one.reply || !which(one.request)) continue;
+      one.due = never;
       one.otherwise = otherwise;
     }
   }
@@ -107,6 +117,7 @@ class RequestLanes {
   }
 
  private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
   struct Lane {
     std::uint64_t client = 0, number = 0;
   };
@@ -127,7 +138,8 @@ class RequestLanes {
         if (burst_ == most_in_burst) return;
         if (one.repeated != repeated || now < one.due) continue;
         writer_.write(one.request);
-        one.due = now + resend_after;
+        // One that was withdrawn is sent once all the same.
+        one.due = one.otherwise ? never : now + resend_after;
         one.repeated = true;
         ++burst_;
       }

@@ -100,6 +100,42 @@ TEST_F(StopLanes, AStartThatFollowsWithdrawsIt) {
   EXPECT_EQ(answers_[1]->reason, "not repeated");
 }
 
+// It would otherwise begin motion behind an accepted stop.
+TEST_F(StopLanes, AStartThatNobodyHasAnsweredIsNotSentAgain) {
+  auto reader = bus_.reader(topics::channel_request);
+  ChannelRequest heard;
+  ASSERT_TRUE(eventually([&] {
+    lanes_.submit(
+        order(CommandKind::RESET), [](const auto&, const auto&) {}, 0, 0);
+    lanes_.pump(0);
+    return reader.take(heard);
+  }));
+  std::vector<std::optional<ChannelReply>> starts;
+  const auto start = [&](double now) {
+    lanes_.submit(
+        order(CommandKind::CYCLE_START), [&](const auto&, const auto& reply) { starts.push_back(reply); },
+        now);
+  };
+  start(1);
+  ChannelReply otherwise{};
+  otherwise.reason = "not repeated";
+  lanes_.cease([](const ChannelRequest& one) { return one.command == CommandKind::CYCLE_START; }, otherwise);
+  stop(1);
+  pump(1, 3.1);
+  ASSERT_EQ(starts.size(), 1u);
+  ASSERT_TRUE(starts[0]);
+  EXPECT_EQ(starts[0]->reason, "not repeated");
+  int sent = 0, stops = 0;
+  ASSERT_TRUE(eventually([&] {
+    while (reader.take(heard)) {
+      sent += heard.command == CommandKind::CYCLE_START;
+      stops += heard.command == CommandKind::FEED_HOLD;
+    }
+    return stops >= 7;  // every 0.2 s or, by rounding, 0.3 s
+  }));
+  EXPECT_EQ(sent, 1);
+}
+
 TEST_F(StopLanes, TheSameStopAgainTakesThePlaceOfTheRepetition) {
   for (int i = 0; i < 100; ++i) {
     withdraw();
