@@ -30,7 +30,7 @@ bool OrderUnderWay::end(bool accepted) {
   const auto right = std::exchange(right_, nullptr);
   if (!right) return false;
   const std::lock_guard lock(right->mutex);
-  return right->right.answered(station_.key, accepted, service::monotonic_seconds());
+  return right->right.answered(reservation_, accepted, service::monotonic_seconds());
 }
 
 Station OperatingControl::station_of(std::string_view cookies, const std::string& peer,
@@ -51,12 +51,14 @@ Station OperatingControl::station_of(std::string_view cookies, const std::string
 std::optional<Answer> OperatingControl::refusal(const Station& station, const Match& match,
                                                 std::shared_ptr<OrderUnderWay>& order) {
   if (!on_ || !needs_operating_right(match)) return {};
+  std::uint64_t reservation = 0;
   {
     const std::lock_guard lock(mutex_);
     const auto holder = right_.order(station, service::monotonic_seconds());
     if (!holder.empty()) return refused_answer(0, refused(holder));
+    reservation = right_.reservation();
   }
-  order = std::make_shared<OrderUnderWay>(shared_, station);
+  order = std::make_shared<OrderUnderWay>(shared_, station, reservation);
   return {};
 }
 
@@ -128,7 +130,7 @@ std::string OperatingControl::take_for_command(const Station& station, bool take
   if (take_over) right_.take(station, now);
   const auto holder = right_.order(station, now);
   if (!holder.empty()) return holder;
-  right_.answered(station.key, true, now);
+  right_.answered(right_.reservation(), true, now);
   note(station, "operates the machine");
   return {};
 }

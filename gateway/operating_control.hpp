@@ -22,8 +22,8 @@ struct SharedRight {
 /// An order under way, with the right that it has reserved.
 class OrderUnderWay {
  public:
-  OrderUnderWay(std::shared_ptr<SharedRight> right, access::Station station)
-      : right_(std::move(right)), station_(std::move(station)) {}
+  OrderUnderWay(std::shared_ptr<SharedRight> right, access::Station station, std::uint64_t reservation)
+      : right_(std::move(right)), station_(std::move(station)), reservation_(reservation) {}
   OrderUnderWay(const OrderUnderWay&) = delete;
   OrderUnderWay& operator=(const OrderUnderWay&) = delete;
   ~OrderUnderWay() { end(false); }
@@ -34,6 +34,7 @@ class OrderUnderWay {
  private:
   std::shared_ptr<SharedRight> right_;  ///< null when it has ended
   access::Station station_;
+  std::uint64_t reservation_;
 };
 
 class OperatingControl {

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t most_commands = 32, longest_line = 512;
 constexpr std::chrono::seconds renewal{1};
+constexpr std::chrono::milliseconds pause{100};  // when there is no file descriptor for another command
 
 }  // namespace
 
@@ -31,7 +32,7 @@ struct CommandSocket::Command {
 };
 
 CommandSocket::CommandSocket(net::io_context& context, const std::string& path, OperatingControl& operating)
-    : acceptor_(context), timer_(context), operating_(operating) {
+    : acceptor_(context), timer_(context), pause_(context), operating_(operating) {
   // Without a run directory there is no cluster that the command line would find.
   if (!operating.on() || path.empty() || !std::filesystem::exists(std::filesystem::path(path).parent_path()))
     return;
@@ -47,7 +48,14 @@ CommandSocket::CommandSocket(net::io_context& context, const std::string& path, 
 
 void CommandSocket::accept() {
   acceptor_.async_accept([this](const boost::system::error_code& error, local::socket socket) {
-    if (error) return;
+    if (error == net::error::operation_aborted) return;
+    if (error) {
+      pause_.expires_after(pause);
+      pause_.async_wait([this](const boost::system::error_code& ended) {
+        if (!ended) accept();
+      });
+      return;
+    }
     if (commands_.size() < most_commands) {
       const auto command = std::make_shared<Command>(std::move(socket));
       commands_.insert(command);

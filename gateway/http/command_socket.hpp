@@ -25,7 +25,7 @@ class CommandSocket {
   void accept();
   void renew();
   boost::asio::local::stream_protocol::acceptor acceptor_;
-  boost::asio::steady_timer timer_;
+  boost::asio::steady_timer timer_, pause_;
   OperatingControl& operating_;
   std::set<std::shared_ptr<Command>> commands_;
   std::uint64_t count_ = 0;

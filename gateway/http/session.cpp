@@ -176,6 +176,7 @@ void HttpSession::dispatch() {
     if (!beast::websocket::is_upgrade(body_->get()))
       return answer(error_answer(426, "this path is for WebSocket only"));
     const auto& headers = body_->get();
+    complete_ = true;  // the stream takes the transport, which connection() must not ask any more
     Visitor visitor{sender(headers, stream_.secure()), connection_.peer,
                     std::string(view(headers[http::field::cookie])),
                     std::string(view(headers[http::field::authorization]))};

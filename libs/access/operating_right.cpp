@@ -30,14 +30,14 @@ std::string OperatingRight::order(const Station& station, double now) {
     return {};
   }
   if (reserved_ && reserved_->key != station.key) return reserved_->name;
-  if (!reserved_) orders_ = 0;
+  if (!reserved_) orders_ = 0, ++reservation_;
   reserved_ = station;
   ++orders_;
   return {};
 }
 
-bool OperatingRight::answered(std::string_view key, bool accepted, double now) {
-  if (!reserved_ || reserved_->key != key) return false;
+bool OperatingRight::answered(std::uint64_t reservation, bool accepted, double now) {
+  if (!reserved_ || reservation != reservation_) return false;
   if (!accepted) {
     if (--orders_ == 0) reserved_.reset();
     return false;

@@ -33,9 +33,12 @@ class OperatingRight {
   /// An order of `station`: reserves the right until it is answered, when nobody holds it. Empty, or the name
   /// of who holds or has reserved it. `now` in seconds of a monotonic clock.
   std::string order(const Station& station, double now);
-  /// An order of `key` is answered: one that is accepted takes the right that it has reserved, and then this
-  /// is true; when none is, the right is free again.
-  bool answered(std::string_view key, bool accepted, double now);
+  /// Number of the reservation that the last order is of, from 1; 0 when it has reserved nothing, because its
+  /// station holds the right.
+  std::uint64_t reservation() const { return reserved_ ? reservation_ : 0; }
+  /// An order of that reservation is answered: one that is accepted takes the right, and then this is true;
+  /// when none is, the right is free again.
+  bool answered(std::uint64_t reservation, bool accepted, double now);
   /// A sign of the station, which may hold the right or ask for it.
   void present(std::string_view key, double now);
 
@@ -68,6 +71,7 @@ class OperatingRight {
   std::optional<Present> holder_, asking_;
   std::optional<Station> reserved_;  ///< without holder: whose orders are being answered
   int orders_ = 0;                   ///< how many they are
+  std::uint64_t reservation_ = 0;
 };
 
 }  // namespace trunnion::access

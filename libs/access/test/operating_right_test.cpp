@@ -12,7 +12,7 @@ const Station ann{"key of ann", "ann"}, bob{"key of bob", "bob"}, setter{"key of
 /// An order that is accepted at once. Empty, or the name of who holds the right.
 std::string order(OperatingRight& right, const Station& station, double now) {
   auto holder = right.order(station, now);
-  if (holder.empty()) right.answered(station.key, true, now);
+  if (holder.empty()) right.answered(right.reservation(), true, now);
   return holder;
 }
 
@@ -31,26 +31,43 @@ TEST(OperatingRight, ARefusedOrderDoesNotTakeItAndHasItUntilItsAnswer) {
   OperatingRight right;
   EXPECT_EQ(right.order(ann, 0), "");
   EXPECT_EQ(right.order(ann, 0), "");
+  const auto of_ann = right.reservation();
   EXPECT_FALSE(right.holder(0)) << "it is reserved, and nobody holds it";
   EXPECT_EQ(right.order(bob, 0), "ann");
-  EXPECT_FALSE(right.answered(ann.key, false, 1));
+  EXPECT_FALSE(right.answered(of_ann, false, 1));
   EXPECT_EQ(right.order(bob, 1), "ann") << "another order of ann's is being answered";
-  EXPECT_FALSE(right.answered(ann.key, false, 1));
+  EXPECT_FALSE(right.answered(of_ann, false, 1));
   EXPECT_EQ(right.order(bob, 1), "");
-  EXPECT_FALSE(right.answered(ann.key, true, 1)) << "ann has reserved nothing any more";
-  EXPECT_TRUE(right.answered(bob.key, true, 2));
+  EXPECT_FALSE(right.answered(of_ann, true, 1)) << "ann has reserved nothing any more";
+  EXPECT_TRUE(right.answered(right.reservation(), true, 2));
   EXPECT_EQ(right.holder(2)->name, "bob");
   EXPECT_EQ(right.order(bob, 3), "");
-  EXPECT_FALSE(right.answered(bob.key, false, 3));
+  EXPECT_FALSE(right.answered(right.reservation(), false, 3));
   EXPECT_EQ(right.holder(3)->name, "bob") << "who holds it keeps it";
 }
 
 TEST(OperatingRight, WhoTakesItWhileAnotherOnesOrderIsBeingAnsweredHasIt) {
   OperatingRight right;
   right.order(ann, 0);
+  const auto of_ann = right.reservation();
   EXPECT_EQ(right.take(bob, 1), Taken::yes);
-  EXPECT_FALSE(right.answered(ann.key, true, 2));
+  EXPECT_FALSE(right.answered(of_ann, true, 2));
   EXPECT_EQ(right.holder(2)->name, "bob");
+}
+
+// The first order was given while ann held it: its answer ends nothing that she has reserved since.
+TEST(OperatingRight, AnAnswerEndsTheReservationOfItsOwnOrderOnly) {
+  OperatingRight right;
+  order(right, ann, 0);
+  EXPECT_EQ(right.order(ann, 1), "");
+  const auto first = right.reservation();
+  right.release(ann.key);
+  EXPECT_EQ(right.order(ann, 2), "");
+  const auto second = right.reservation();
+  EXPECT_FALSE(right.answered(first, false, 3));
+  EXPECT_EQ(right.order(bob, 3), "ann") << "her second order is being answered";
+  EXPECT_TRUE(right.answered(second, true, 4));
+  EXPECT_EQ(right.holder(4)->name, "ann");
 }
 
 TEST(OperatingRight, AStationThatIsGoneLosesItWhenItsLeaseEnds) {
