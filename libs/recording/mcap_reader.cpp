@@ -223,9 +223,20 @@ bool Reader::next_of_file(MessageView& message) {
   }
   if (wrong.empty()) return is_message;
   const bool has_times = opcode_ == Opcode::chunk && !has_index();
-  damages_.push_back({begin_, offset_, has_times ? chunk_place_.first_time : 0,
-                      has_times ? chunk_place_.last_time : 0, wrong});
+  note({begin_, offset_, has_times ? chunk_place_.first_time : 0, has_times ? chunk_place_.last_time : 0,
+        wrong});
   return false;
+}
+
+// Behind each other they are one, so that a file of wrong records takes no memory.
+void Reader::note(Damage damage) {
+  constexpr std::size_t most = 10000;
+  const bool follows = !damages_.empty() && damages_.back().end == damage.begin &&
+                       damages_.back().what == damage.what && damage.first_time == 0;
+  if (follows || damages_.size() >= most)
+    damages_.back().end = damage.end;
+  else
+    damages_.push_back(std::move(damage));
 }
 
 bool Reader::next_of_chunk(MessageView& message) {

@@ -62,6 +62,7 @@ class Reader {
   void end_data();
   std::string open_chunk(std::span<const std::uint8_t> content);
   const char* parse(Opcode opcode, std::span<const std::uint8_t> content, MessageView& message);
+  void note(Damage damage);
   bool next_of_file(MessageView& message);
   bool next_of_chunk(MessageView& message);
 
