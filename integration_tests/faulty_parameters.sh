@@ -70,3 +70,14 @@ start_cluster "$work/m"
 "$trunnion" param get 000910 --domain "$domain" | grep -q '= 100' || fail "the value is not active"
 ! offline set 000910 200 --machine "$work/m" || fail "while the cluster runs: $(cat "$work/out")"
 grep -q 'is in use by launcher' "$work/out" || fail "$(cat "$work/out")"
+stop_cluster
+
+# Damage is told by the next start: a change beside it would put the file aside, and nothing would tell any more.
+printf x >> "$work/state/parameters.yaml"
+rm -rf "$work/before"
+cp -r "$work/state" "$work/before"
+for command in "get 000910" "set 000910 200"; do
+  ! offline $command --machine "$work/m" || fail "$command of a damaged file: $(cat "$work/out")"
+  grep -q "$work/state/parameters.yaml" "$work/out" || fail "$(cat "$work/out")"
+done
+diff -r "$work/before" "$work/state" || fail "the damaged state was changed"

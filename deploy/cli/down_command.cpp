@@ -84,7 +84,8 @@ bool clear_abandoned(const Common& common) {
 }
 
 int down(const Common& common, const std::string& name) {
-  if (clear_abandoned(common) && name.empty() && cluster::running_clusters().empty()) return 0;
+  // What a cluster of another machine has left is that one's.
+  if (name.empty() && clear_abandoned(common) && cluster::running_clusters().empty()) return 0;
   const auto cluster = !name.empty()   ? named(common, name)
                        : common.domain ? cluster::find_cluster(common.domain)
                                        : unnamed();

@@ -100,7 +100,7 @@ struct Restore {
 // Of the machine's directory, with those of the backup; nothing when the machine is not on this computer.
 std::optional<std::vector<std::string>> differing_here(const machine_state::Backup& backup,
                                                        const StatePlace& place) {
-  if (place.directory.empty()) return std::nullopt;
+  if (place.directory.empty() || backup.configuration.empty()) return std::nullopt;
   return machine_state::differing_files(backup.configuration, machine_state::machine_files(place.directory));
 }
 
@@ -139,8 +139,16 @@ int restore(const Common& common, Restore options) {
     machine_state::make_machine(backup.configuration, options.configuration);
     place.directory = fs::absolute(options.configuration).lexically_normal().string();
   }
-  const auto old = machine_state::restore(backup, place.state);
-  const auto differing = differing_here(backup, place);
+  std::optional<std::vector<std::string>> differing;
+  std::string old;
+  try {
+    differing = differing_here(backup, place);  // may fail, and then nothing is exchanged
+    old = machine_state::restore(backup, place.state);
+  } catch (const std::exception&) {
+    std::error_code ignored;
+    if (!options.configuration.empty()) fs::remove_all(place.directory, ignored);
+    throw;
+  }
   if (common.json) {
     std::cout << bus::text_of(Json{{"state", place.state},
                                    {"before", old},

@@ -40,6 +40,9 @@ StatePlace state_place(const Common& common, const StatePlace& given) {
   if (!given.machine.empty()) place = of_machine(given.machine);
   place.state = given.state.empty() ? cluster::default_state_directory(place.machine)
                                     : std::filesystem::absolute(given.state).lexically_normal().string();
+  // Of "state/mill/" the machine is "mill", too.
+  if (const std::filesystem::path path(place.state); !path.has_filename())
+    place.state = path.parent_path().string();
   if (given.machine.empty()) try {
       const auto state = place.state;
       place = of_machine(std::filesystem::path(state).filename().string());

@@ -3,6 +3,7 @@
 
 #include <archive.h>
 #include <archive_entry.h>
+#include <locale.h>
 
 #include <memory>
 #include <stdexcept>
@@ -18,6 +19,30 @@ la_ssize_t append(archive*, void* text, const void* bytes, std::size_t size) {
   return static_cast<la_ssize_t>(size);
 }
 
+// libarchive converts names by the locale of the thread, and "C" has no UTF-8.
+class Utf8Names {
+ public:
+  Utf8Names() : utf8_(newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)) {
+    if (utf8_ != nullptr) before_ = uselocale(utf8_);
+  }
+  ~Utf8Names() {
+    if (utf8_ == nullptr) return;
+    uselocale(before_);
+    freelocale(utf8_);
+  }
+  Utf8Names(const Utf8Names&) = delete;
+  Utf8Names& operator=(const Utf8Names&) = delete;
+
+ private:
+  locale_t utf8_, before_ = nullptr;
+};
+
+void check_size(std::size_t bytes, std::size_t members) {
+  if (bytes > most_bytes) throw std::runtime_error("no backup: it has more than 1 GiB");
+  if (members > most_members)
+    throw std::runtime_error("no backup: it has more than " + std::to_string(most_members) + " files");
+}
+
 [[noreturn]] void fail(archive* a) {
   const char* reason = archive_error_string(a);
   throw std::runtime_error(std::string("no backup: ") + (reason != nullptr ? reason : "no tar archive"));
@@ -26,6 +51,10 @@ la_ssize_t append(archive*, void* text, const void* bytes, std::size_t size) {
 }  // namespace
 
 std::string write_tar(const std::vector<Member>& members) {
+  std::size_t total = 0;
+  for (const auto& member : members) total += member.bytes.size();
+  check_size(total, members.size());
+  const Utf8Names names;
   const std::unique_ptr<archive, decltype(&archive_write_free)> a(archive_write_new(), archive_write_free);
   std::string text;
   if (archive_write_set_format_pax_restricted(a.get()) != ARCHIVE_OK ||
@@ -50,6 +79,7 @@ std::string write_tar(const std::vector<Member>& members) {
 }
 
 std::vector<Member> read_tar(const std::string& bytes) {
+  const Utf8Names names;
   const std::unique_ptr<archive, decltype(&archive_read_free)> a(archive_read_new(), archive_read_free);
   if (archive_read_support_format_tar(a.get()) != ARCHIVE_OK ||
       archive_read_open_memory(a.get(), bytes.data(), bytes.size()) != ARCHIVE_OK)
@@ -68,12 +98,11 @@ std::vector<Member> read_tar(const std::string& bytes) {
     for (la_ssize_t size; (size = archive_read_data(a.get(), piece, sizeof piece)) != 0;) {
       if (size < 0) fail(a.get());
       total += static_cast<std::size_t>(size);
-      if (total > most_bytes) throw std::runtime_error("no backup: it has more than 1 GiB");
+      check_size(total, members.size());
       member.bytes.append(piece, static_cast<std::size_t>(size));
     }
     members.push_back(std::move(member));
-    if (members.size() > most_members)
-      throw std::runtime_error("no backup: it has more than " + std::to_string(most_members) + " files");
+    check_size(total, members.size());
   }
   return members;
 }

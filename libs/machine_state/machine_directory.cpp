@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "storage/file.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::machine_state {
 namespace fs = std::filesystem;
@@ -17,11 +18,10 @@ constexpr std::size_t longest_name = 255;
 constexpr int most_folders = 8;  // one within the other; a link that leads upwards has no end
 constexpr std::array keys_and_certificates = {".pem", ".key", ".crt", ".csr", ".srl", ".p12", ".p7s"};
 
-bool is_left_out(const fs::path& path, const std::string& bytes) {
+bool is_key_or_certificate(const fs::path& path) {
   const auto extension = path.extension().string();
   return std::find(keys_and_certificates.begin(), keys_and_certificates.end(), extension) !=
-             keys_and_certificates.end() ||
-         bytes.find("PRIVATE KEY-----") != std::string::npos;
+         keys_and_certificates.end();
 }
 
 // One part of a name between two '/'.
@@ -33,7 +33,7 @@ bool is_plain(std::string_view part) {
 }  // namespace
 
 bool is_machine_file(const std::string& name) {
-  if (name.size() > longest_name) return false;
+  if (name.size() > longest_name || text::valid_utf8_prefix(name) != name.size()) return false;
   std::string_view rest = name;
   for (int folders = 0; folders <= most_folders; ++folders) {
     const auto slash = rest.find('/');
@@ -53,8 +53,9 @@ FileSet machine_files(const std::string& directory) {
     if (hidden || name == "recordings") {
       entry.disable_recursion_pending();
     } else if (entry->is_regular_file()) {
+      if (is_key_or_certificate(entry->path())) continue;
       auto bytes = read_file(entry->path().string());
-      if (is_left_out(entry->path(), bytes)) continue;
+      if (bytes.find("PRIVATE KEY-----") != std::string::npos) continue;
       if (!is_machine_file(name))
         throw std::runtime_error(entry->path().string() + ": a file of this name cannot be in a backup");
       files[name] = std::move(bytes);

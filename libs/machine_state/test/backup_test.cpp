@@ -99,7 +99,9 @@ TEST_F(BackupTest, ANewerFormatOrANameThatLeadsElsewhereIsRefused) {
 
 TEST_F(BackupTest, HasTheFilesOfTheMachineBesideTheState) {
   auto backup = taken();
-  backup.configuration = {{"machine.yaml", "name: mill\n"}, {"plc/main.st", "PROGRAM main\n"}};
+  backup.configuration = {{"machine.yaml", "name: mill\n"},
+                          {"plc/main.st", "PROGRAM main\n"},
+                          {"programs/Gehäuse 夹具.nc", "M30\n"}};
   const auto back = read_backup(write_backup(backup));
   EXPECT_EQ(back.configuration, backup.configuration);
   EXPECT_EQ(back.files, backup.files);

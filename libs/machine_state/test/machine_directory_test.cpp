@@ -39,6 +39,7 @@ TEST_F(MachineDirectory, IsReadWithoutRecordingsKeysAndCertificates) {
   write("security/ca.pem", "x");
   write("security/permissions.p7s", "x");
   write("tls.key", "x");
+  fs::permissions(machine() / "tls.key", fs::perms::none);  // of another user
   write("secret", "-----BEGIN EC PRIVATE KEY-----\n");
   write(".git/config", "x");
   fs::create_directories(root_ / "shared");
@@ -77,7 +78,7 @@ TEST_F(MachineDirectory, DiffersByName) {
 
 TEST_F(MachineDirectory, NoNameLeadsOutOfIt) {
   for (const auto* name : {"", "/etc/passwd", "..", "../x", "plc/../../x", "plc//x", "plc/", ".ssh", "plc/.x",
-                           "a\nb", "a\\b", "1/2/3/4/5/6/7/8/9/10"})
+                           "a\nb", "a\\b", "Geh\xe4use", "1/2/3/4/5/6/7/8/9/10"})
     EXPECT_FALSE(is_machine_file(name)) << name;
   EXPECT_FALSE(is_machine_file(std::string(300, 'x')));
   for (const auto* name : {"machine.yaml", "plc/main.st", "programs/Gehäuse (2).nc"})
