@@ -43,8 +43,10 @@ reset_alarms() {
 }
 # await_state STATE: of channel 0.
 has_state() {
-  "$trunnion" topic echo channel_state --count 1 --timeout 5 --json --domain "$domain" > "$work/state.json" 2>&1 &&
-    grep -q "\"state\":\"$1\"" "$work/state.json"
+  # Every channel has a state of its own there, and the listener ends with its reader.
+  { timeout 10 "$trunnion" topic echo channel_state --timeout 5 --json --domain "$domain" 2> "$work/listener" || true; } |
+    grep -m 1 '"channel":0,' > "$work/state.json"
+  grep -q "\"state\":\"$1\"" "$work/state.json"
 }
 await_state() { wait_until "channel 0 is $1" has_state "$1"; }
 # await_idle: the program of channel 0 has ended.

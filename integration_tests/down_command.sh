@@ -48,7 +48,9 @@ grep -q "two-channel is down" "$work/out" || fail "$(cat "$work/out")"
 
 # By name from anywhere, while another cluster of this computer has its launcher and has not written down yet what it runs.
 start_cluster "$work/m"
-beginning=$runs/78
+beginning=$runs/76
+trap 'stop_jobs; stop_cluster; rm -rf "$work" "$beginning"' EXIT
+rm -rf "$beginning"
 mkdir "$beginning"
 cp "$runs/$domain/launcher.pid" "$beginning"
 "$trunnion" status > "$work/out" || fail "$(cat "$work/out")"

@@ -60,11 +60,11 @@ pid_of() { "$trunnion" status --domain "$domain" --json | "$python" -c 'import j
 print(next(s["pid"] for s in json.load(sys.stdin)["services"] if s["service"] == sys.argv[1]))' "$1"; }
 channel=$(pid_of channel)
 kill -STOP "$channel"
-mdi "M5" &
+"$trunnion" mdi "M5" --domain "$domain" > "$work/m5" 2>&1 &
 command=$!
 sleep 0.5
 kill -CONT "$channel"
-wait $command || fail "M5 of a channel that was stopped"
+wait $command || fail "M5 of a channel that was stopped: $(cat "$work/m5")"
 
 plc uses seldom.n > "$work/uses"
 is "uses" "$(cat "$work/uses")" "$(printf 'machine.st:18:37: writes\nmachine.st:18:42: reads')"

@@ -76,13 +76,14 @@ plc force --release feed_hold
 
 # Every scan: the counter of the program rises by one from row to row.
 n=$(plc watch fast.counter.n --count 1 | sed 's/.* = //')
-plc trace fast.counter.n coolant_0 --scans 300 --when "fast.counter.n>$((n + 20))" --output "$work/trace.csv" &
+"$trunnion" plc trace fast.counter.n coolant_0 --scans 300 --when "fast.counter.n>$((n + 20))" --output "$work/trace.csv" \
+  --domain "$domain" > "$work/traced" 2>&1 &
 trace=$!
 # A second trace is refused while one is armed; this one would be in any case, for its path.
 is_armed() { ! plc trace fast.none > "$work/out" 2>&1 && grep -q "another client traces" "$work/out"; }
 wait_until "the trace is armed" is_armed
 mdi "G53 G1 X30 F3000"
-wait $trace || fail "the trace"
+wait $trace || fail "the trace: $(cat "$work/traced")"
 "$python" - "$work/trace.csv" "$n" <<'END' || fail "$(head -5 "$work/trace.csv")"
 import csv, sys
 rows = list(csv.reader(open(sys.argv[1])))

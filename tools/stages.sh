@@ -12,7 +12,8 @@ stage_within() {
   shift 2
   echo "== $name"
   ${within:+timeout --kill-after=10 "$within"} "$@" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
-  if [ -n "$within" ] && { [ "$status" = 124 ] || [ "$status" = 137 ]; }; then
+  # 137 is also the status of what something else has killed.
+  if [ -n "$within" ] && [ $((SECONDS - begin)) -ge "$within" ] && { [ "$status" = 124 ] || [ "$status" = 137 ]; }; then
     echo "$name: not done within $within s, left out"
     stages_rows+=("$(printf '%-14s %7d %7s' "$name" $((SECONDS - begin)) "left out")")
     return
