@@ -198,6 +198,22 @@ TEST(Mcap, ADamagedChunkOfAFileThatIsCutOffCostsItsMessagesOnly) {
   EXPECT_EQ(result.messages.size(), up_to(1) + up_to(4) - up_to(2));
 }
 
+TEST(Mcap, WrongRecordsBehindEachOtherAreOneDamage) {
+  Bytes file(mcap_magic.begin(), mcap_magic.end());
+  for (int i = 0; i < 1000; ++i) {
+    file.push_back(static_cast<std::uint8_t>(Opcode::message));
+    file.insert(file.end(), 8, 0);  // no bytes
+  }
+  MemorySource source(file);
+  Reader reader(source);
+  MessageView view;
+  while (reader.next(view)) {
+  }
+  ASSERT_EQ(reader.damages().size(), 1u);
+  EXPECT_EQ(reader.damages()[0].begin, mcap_magic.size());
+  EXPECT_EQ(reader.damages()[0].end, file.size());
+}
+
 TEST(Mcap, ForgedLengthsAreRefusedWithoutAllocating) {
   Bytes file(mcap_magic.begin(), mcap_magic.end());
   file.push_back(static_cast<std::uint8_t>(Opcode::chunk));
