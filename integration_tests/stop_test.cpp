@@ -58,24 +58,21 @@ double deviation(const Rows& path, const Rows& reference) {
   return most;
 }
 
-class StageLost : public testing::TestWithParam<std::string> {};
-
-TEST_P(StageLost, StopsOnThePathWithinTheLeadAndTheWorkpieceDoesNotShowIt) {
-  Rows undisturbed;
-  {
-    Cluster cluster("ac-table");
-    cluster.keep_rows = true;
-    cluster.start_text(sweep());
-    ASSERT_TRUE(cluster.finish()) << cluster.told();
-    undisturbed = cluster.rows;
-    std::erase_if(undisturbed, [](const auto& row) { return row.empty(); });
-  }
-  const std::string victim = GetParam();
-  // In real time the drive brakes at once; in virtual time it would wait for the stage to come back.
-  Cluster cluster("ac-table", Time::real);
+Rows undisturbed_rows() {
+  Cluster cluster("ac-table");
   cluster.keep_rows = true;
   cluster.start_text(sweep());
-  // A virtual machine's processor may be away for longer than half the lead before there is anything to see.
+  EXPECT_TRUE(cluster.finish()) << cluster.told();
+  auto rows = cluster.rows;
+  std::erase_if(rows, [](const auto& row) { return row.empty(); });
+  return rows;
+}
+
+// Into the fast part. A virtual machine's processor may be away for longer than half the lead before there is
+// anything to see.
+void run_to_line_6(Cluster& cluster) {
+  cluster.keep_rows = true;
+  cluster.start_text(sweep());
   for (int i = 0; i < 5 && cluster.channels[0].line < 6; ++i) {
     if (i > 0) {
       ASSERT_TRUE(cluster.go_on()) << cluster.told();
@@ -84,6 +81,16 @@ TEST_P(StageLost, StopsOnThePathWithinTheLeadAndTheWorkpieceDoesNotShowIt) {
   }
   ASSERT_GE(cluster.channels[0].line, 6) << cluster.told();
   ASSERT_EQ(cluster.state(), RunState::RUNNING) << cluster.told();
+}
+
+class StageLost : public testing::TestWithParam<std::string> {};
+
+TEST_P(StageLost, StopsOnThePathWithinTheLeadAndTheWorkpieceDoesNotShowIt) {
+  const auto undisturbed = undisturbed_rows();
+  const std::string victim = GetParam();
+  // In real time the drive brakes at once; in virtual time it would wait for the stage to come back.
+  Cluster cluster("ac-table", Time::real);
+  ASSERT_NO_FATAL_FAILURE(run_to_line_6(cluster));
   ASSERT_FALSE(cluster.has_alarm(110)) << cluster.told();
   cluster.history.clear();
   const auto killed = cluster.expected_cycle;
@@ -126,6 +133,32 @@ TEST_P(StageLost, StopsOnThePathWithinTheLeadAndTheWorkpieceDoesNotShowIt) {
   std::printf("%s killed: at most %.6f mm or deg off the undisturbed path over %zu cycles, undisturbed %zu\n",
               victim.c_str(), off, cluster.rows.size(), undisturbed.size());
   EXPECT_LE(off, 2 * path_tolerance);
+  EXPECT_EQ(distance(cluster.rows.back(), undisturbed.back()), 0) << "the same last point";
+}
+
+// The stage lives, it was only late: nobody has to find out what is wrong, and to reset it.
+TEST(Starved, OneKeyContinuesAtThePlaceTheWorkpieceDoesNotShowItAndNoAlarmIsLeft) {
+  const auto undisturbed = undisturbed_rows();
+  Cluster cluster("ac-table", Time::real);
+  ASSERT_NO_FATAL_FAILURE(run_to_line_6(cluster));
+  const auto pid = cluster.service("kinematics")->pid;
+  ASSERT_EQ(kill(pid, SIGSTOP), 0);
+  const bool stopped = cluster.until([&] { return cluster.state() == RunState::INTERRUPTED; });
+  ASSERT_EQ(kill(pid, SIGCONT), 0);
+  ASSERT_TRUE(stopped) << cluster.told();
+  ASSERT_TRUE(cluster.until([&] {
+    return cluster.feedback.mode == DriveMode::HELD && cluster.has_alarm(110);
+  })) << cluster.told();
+  // A busy machine may stop once more.
+  bool finished = false;
+  for (int i = 0; i < 5 && !finished; ++i) {
+    ASSERT_NO_THROW(cluster.client().channel(0, CommandKind::CYCLE_START)) << cluster.told();
+    ASSERT_TRUE(cluster.until([&] { return cluster.state() != RunState::INTERRUPTED; })) << cluster.told();
+    finished = cluster.finish();
+  }
+  ASSERT_TRUE(finished) << cluster.told();
+  EXPECT_TRUE(cluster.until([&] { return cluster.active_alarms().empty(); })) << cluster.told();
+  EXPECT_LE(deviation(cluster.rows, undisturbed), 2 * path_tolerance);
   EXPECT_EQ(distance(cluster.rows.back(), undisturbed.back()), 0) << "the same last point";
 }
 

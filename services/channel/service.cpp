@@ -135,9 +135,20 @@ void ChannelService::watch_alarms() {
   }
   if (!news) return;
   tell_unreferenced();
-  core_.set_hold(!holding_alarms_.empty() ? holding_alarms_.begin()->second
-                 : plc_hold_              ? "Feed hold of the PLC"
-                                          : "");
+  set_holds();
+}
+
+// Cycle start continues behind missing setpoints, and the drive ends the alarm when it goes on. It stops all
+// axes by itself: no channel need hold them.
+void ChannelService::set_holds() {
+  std::string hold, stopped;
+  for (const auto& [key, text] : holding_alarms_) {
+    auto& why = key[1] == alarm::setpoint_missing.number ? stopped : hold;
+    if (why.empty()) why = text;
+  }
+  if (hold.empty() && plc_hold_) hold = "Feed hold of the PLC";
+  core_.set_drive_stopped(stopped);
+  core_.set_hold(hold);
 }
 
 // A recording must tell at which cycle it took effect, as of a request: the answer is that of a client that
@@ -199,7 +210,10 @@ void ChannelService::answer_requests() {
   std::vector<std::pair<idl::channel::ChannelRequest, idl::channel::ChannelReply>> answers;
   while (requests_.take(request)) {
     if (request.channel != node_.options().channel) continue;
+    const bool interrupted = core_.states().in<Interrupted>();
     const auto answer = core_.unusable() ? UnusableParameters::handle(core_, request) : core_.handle(request);
+    if (interrupted && !core_.states().in<Interrupted>())
+      node_.alarms().clear(alarm::interrupted, static_cast<std::uint32_t>(node_.options().channel));
     answers.push_back(
         {request, {0, 0, answer.accepted, answer.alarm, answer.reason.substr(0, 256), core_.link().next()}});
   }

@@ -48,6 +48,7 @@ class ChannelService : public service::Service {
   void read_hand_over();
   void watch_alarms();
   void tell_unreferenced();
+  void set_holds();
   void take_outputs(const idl::plc::Outputs& outputs);
   void watch_replicas();
   void watch_recorders();

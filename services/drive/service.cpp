@@ -362,6 +362,7 @@ void DriveService::pump() {
     run_virtual();
   else
     run_real();
+  if (core_.take_resumed()) node_.alarms().clear(alarm::setpoint_missing, 0);
   for (const auto& event : core_.take_events()) {
     node_.alarms().raise(*event.alarm, event.part, event.text, core_.next());
     const bool unreferenced = event.alarm->number == alarm::not_homed.number &&

@@ -54,9 +54,9 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { c
     de: { cause: "Zwei Cluster benutzen dieselbe DDS-Domain", remedy: "Eines davon anhalten oder ihm eine andere Domain geben" },
   },
   110: {
-    en: { cause: "A service of the stream or its computer is too slow, or has ended", remedy: "Reset the alarm and press cycle start; if it comes back, check the load of the computer and raise parameter 000900" },
-    zh: { cause: "数据流中的某个服务或其计算机过慢，或已结束", remedy: "复位报警并按循环启动；若再次出现，检查计算机负载并增大参数 000900" },
-    de: { cause: "Ein Dienst des Datenstroms oder sein Rechner ist zu langsam oder ausgefallen", remedy: "Den Alarm zurücksetzen und Zyklusstart drücken; kommt er wieder, die Auslastung des Rechners prüfen und Parameter 000900 erhöhen" },
+    en: { cause: "A service of the stream or its computer is too slow, or has ended", remedy: "Press cycle start: the path continues where it stopped; if it comes back, check the load of the computer and raise parameter 000900" },
+    zh: { cause: "数据流中的某个服务或其计算机过慢，或已结束", remedy: "按循环启动：从停止处沿轨迹继续；若再次出现，检查计算机负载并增大参数 000900" },
+    de: { cause: "Ein Dienst des Datenstroms oder sein Rechner ist zu langsam oder ausgefallen", remedy: "Zyklusstart drücken: die Bahn geht dort weiter, wo sie angehalten hat; kommt der Alarm wieder, die Auslastung des Rechners prüfen und Parameter 000900 erhöhen" },
   },
   111: {
     en: { cause: "The axis is blocked, overloaded or badly tuned, or its limit is too small", remedy: "Look for a collision or a hard-moving axis; then reset, and check the drive and the axis' limit of the following error" },

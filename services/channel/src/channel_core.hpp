@@ -106,6 +106,9 @@ class ChannelCore {
   void give_up_cycle();
   /// Alarms that stop motion, or the PLC's feed hold: `why` is empty when there is none.
   void set_hold(const std::string& why);
+  /// The drive has stopped all axes on the path because setpoints were missing: nothing starts but what that
+  /// has interrupted. `why` is empty when it has not.
+  void set_drive_stopped(const std::string& why);
   /// What the PLC decides of this channel; its overrides stay when it sets them no longer.
   void set_control(const idl::plc::ChannelControl& control);
   const idl::plc::ChannelControl& control() const { return control_; }
@@ -346,7 +349,7 @@ class ChannelCore {
   Mode mode_ = Mode::JOG;
   Switches switches_;
   bool ready_ = false, recovered_ = false;
-  std::string external_hold_;
+  std::string external_hold_, drive_stopped_;
   idl::plc::ChannelControl control_;
   std::set<std::uint16_t> unreferenced_;
   std::uint32_t reset_count_ = 0;

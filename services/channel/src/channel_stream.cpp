@@ -12,6 +12,11 @@ void ChannelCore::set_hold(const std::string& why) {
   end_homing();
 }
 
+void ChannelCore::set_drive_stopped(const std::string& why) {
+  drive_stopped_ = why;
+  if (!why.empty()) end_homing();
+}
+
 void ChannelCore::hold() {
   manual_.stop();
   // The handwheel comes to rest by itself, and has no path to continue.

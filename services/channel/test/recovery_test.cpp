@@ -251,6 +251,53 @@ TEST_F(Recovery, AResetIsCompleteWhenTheDriveRestartsWhileItBrakes) {
   EXPECT_EQ(core->run_state(), RunState::IDLE);
 }
 
+TEST_F(Recovery, BehindMissingSetpointsCycleStartAloneContinuesThePathAndNothingElseStarts) {
+  const std::string missing = "Alarm 110: No setpoint for cycle 200 in time";
+  load("G90\nG1 X20 Y10 F6000\nX0\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  run();
+  const auto undisturbed = std::exchange(drive.rows, {});
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+  ask(CommandKind::MDI_LINE, "G0 Y0");
+  run();
+  drive.rows.clear();
+  ask(CommandKind::SET_MODE);
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  rounds(20);
+  // The alarm may come before the feedback that shows the stop, and ends when the drive goes on.
+  core->set_drive_stopped(missing);
+  EXPECT_EQ(core->run_state(), RunState::RUNNING) << "the drive stops the axes, not the channel";
+  drive.mode = DriveMode::HELD;
+  round();
+  ASSERT_EQ(core->run_state(), RunState::INTERRUPTED);
+  EXPECT_EQ(core->state().detail, "the drive has stopped on the path: cycle start continues there");
+  const auto answer = ask(CommandKind::CYCLE_START);
+  ASSERT_TRUE(answer.accepted) << answer.reason;
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows, undisturbed);
+  EXPECT_EQ(ask(CommandKind::CYCLE_START).reason, missing) << "of a stop that nothing has continued";
+  core->set_drive_stopped("");
+  EXPECT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+}
+
+TEST_F(Recovery, BehindMissingSetpointsALineOfMdiContinuesToo) {
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+  cycles_per_round = 8;
+  ASSERT_TRUE(ask(CommandKind::MDI_LINE, "G1 X20 F6000").accepted);
+  rounds(10);
+  core->set_drive_stopped("Alarm 110");
+  drive.mode = DriveMode::HELD;
+  round();
+  ASSERT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[0], 20);
+  expect_no_jump();
+}
+
 TEST_F(Recovery, NothingStartsBeforeTheProcessKnowsWhatTheOneBeforeItLeft) {
   core = std::make_unique<ChannelCore>(0, true);
   core->set_parameters(parameters);

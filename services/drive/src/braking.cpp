@@ -80,7 +80,7 @@ void DriveCore::stopped() {
 }
 
 void DriveCore::resume() {
-  resume_ = false;
+  resume_ = false, resumed_ = true;
   bool away = off_path_;
   for (std::size_t i = 0; i < axes_.size() && phase_ == 0; ++i)
     away = away || std::abs(command_[i] - target_[i]) > on_path_distance;

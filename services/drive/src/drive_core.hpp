@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contracts/types.hpp"
@@ -112,6 +113,8 @@ class DriveCore {
   /// Executed rows that fill() will report.
   std::uint32_t rows() const { return rows_.count(); }
   std::vector<DriveEvent> take_events();
+  /// A stop on the path has been left for good since the last call.
+  bool take_resumed() { return std::exchange(resumed_, false); }
   /// Stops along the path and holds.
   void stop();
   /// Alarms about to be reset: supervision may fire again.
@@ -257,7 +260,7 @@ class DriveCore {
   double dip_step_ = 0;
   std::uint32_t dip_depth_ = 0, dip_periods_ = 0;
   bool off_path_ = false;  // braking continued along the tangent, so the axes are not on the path
-  bool resume_ = false;
+  bool resume_ = false, resumed_ = false;
   std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits
   std::uint32_t settle_ = 0;   // periods until the servos are at rest, in virtual time
   Homing homing_;

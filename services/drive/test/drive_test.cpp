@@ -92,9 +92,11 @@ TEST_F(Fixture, AMissingSetpointStopsOnThePathAndTheRestIsExecutedUnchangedAfter
   EXPECT_NEAR(y, 2 * x, 1e-9) << "along the path, which is a straight line here, also beyond its known end";
   run();
   EXPECT_EQ(core.mode(), Mode::HELD) << "it does not go on by itself";
+  EXPECT_FALSE(core.take_resumed());
   feed(200, 400, true);
   begin(StreamRequestKind::RESUME);
   run();
+  EXPECT_TRUE(core.take_resumed());
   ASSERT_EQ(commanded.size(), 400u);
   for (std::size_t n = 0; n < 400; ++n) EXPECT_EQ(commanded[n], path(n));
 }
