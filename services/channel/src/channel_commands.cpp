@@ -292,8 +292,9 @@ void ChannelCore::reset() {
   end_homing();
   // Behind an emergency stop the program may be continued from its line.
   interrupted_ = states_.needs_reset() ? running_program() : RunningProgram{};
-  const bool moving = states_.busy() && link().state() == LinkState::active && !states_.in<Interrupted>() &&
-                      !states_.in<Held>();
+  const bool stands =
+      states_.in<Interrupted>() || (link().resuming() && link().drive_mode() == DriveMode::HELD);
+  const bool moving = states_.busy() && link().state() == LinkState::active && !stands && !states_.in<Held>();
   states_.forget_suspended();
   mdi_.modal = power_on_modal();
   mdi_.frames_kept = false;

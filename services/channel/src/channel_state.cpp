@@ -26,6 +26,8 @@ std::string ChannelCore::detail() const {
            " lines were read without a motion; reset ends it";
   if (running && states_.is(Activity::program) && program_flow_.searching())
     return "searching line " + std::to_string(executed.line);
+  if (link().resuming() && link().drive_mode() == DriveMode::HELD)
+    return "the drive waits for cycle start, or a reset, of the other channels that it has stopped";
   if (cycle_call_.open()) return "waits for the measurement of the kinematics";
   if (waits_for_text()) return "waiting for the text of the program";
   if (running && preparing != nullptr && preparing->approaching) return "approaching the program";

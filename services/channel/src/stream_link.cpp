@@ -36,7 +36,7 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
       epoch_ = echo.epoch;
     }
     const bool ours = echo.request == request_ && echo.epoch == epoch_;
-    if (ours) resuming_ = false;
+    if (ours && mode_ != DriveMode::HELD) resuming_ = false;
     homing_ = homing_ && (mode_ == DriveMode::HOMING || (!forgotten && echo.request != request_));
     switch (state_) {
       case LinkState::requested:

@@ -52,7 +52,7 @@ class StreamLink {
     new_epoch_ = true;
   }
 
-  /// A resume was requested and the drive has not answered: the hold it reports is over.
+  /// A resume was requested, and the drive still holds: it has not answered, or waits for other channels.
   bool resuming() const { return resuming_; }
   LinkState state() const { return state_; }
   /// Nothing before the first feedback.

@@ -30,7 +30,7 @@ class FakeDrive {
       echo_.start = next;
       ++starts;
     } else if (request.kind == StreamRequestKind::RESUME) {
-      mode = DriveMode::FOLLOWING;
+      if (!waits_for_others) mode = DriveMode::FOLLOWING;
       ++resumes;
     } else {
       echo_.active = false;
@@ -101,6 +101,7 @@ class FakeDrive {
   void lose_queue() { queue_.clear(); }
 
   DriveMode mode = DriveMode::FOLLOWING;
+  bool waits_for_others = false;  // another channel that it has stopped has not resumed yet
   int starts = 0, resumes = 0;
   std::uint64_t tick = 0;  // one for each setpoint; more pass in a hold
   std::uint64_t next = 0;

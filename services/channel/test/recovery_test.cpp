@@ -282,6 +282,34 @@ TEST_F(Recovery, BehindMissingSetpointsCycleStartAloneContinuesThePathAndNothing
   EXPECT_TRUE(ask(CommandKind::CYCLE_START).accepted);
 }
 
+TEST_F(Recovery, BehindAStopOfTheDriveAChannelWaitsForTheOthersAndCanBeReset) {
+  for (const bool reset : {false, true}) {
+    load("G90\nG1 X20 F6000\nX0\nM30\n");
+    cycles_per_round = 8;
+    ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    rounds(20);
+    drive.mode = DriveMode::HELD;
+    round();
+    drive.waits_for_others = true;
+    const auto stood = drive.rows.size();
+    ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    rounds(10);
+    EXPECT_EQ(core->run_state(), RunState::RUNNING);
+    EXPECT_EQ(core->state().detail,
+              "the drive waits for cycle start, or a reset, of the other channels that it has stopped");
+    EXPECT_EQ(drive.rows.size(), stood);
+    drive.waits_for_others = false;
+    if (reset)
+      ask(CommandKind::RESET);
+    else
+      drive.mode = DriveMode::FOLLOWING;
+    run();
+    EXPECT_EQ(core->run_state(), RunState::IDLE);
+    EXPECT_EQ(drive.rows.size() == stood, reset);
+    expect_no_jump();
+  }
+}
+
 TEST_F(Recovery, BehindMissingSetpointsALineOfMdiContinuesToo) {
   ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
   cycles_per_round = 8;

@@ -22,7 +22,7 @@ void DriveCore::begin_braking() {
   if (reserve_ == 0 && mode_ == Mode::FOLLOWING && phase_ == 0 && supply().cycles == 0) rate_ = 0;  // at rest
   if (mode_ == Mode::RETURNING) rate_ = 0;
   mode_ = Mode::BRAKING;
-  resume_ = false;
+  forget_resumes();
 }
 
 // The change of rate that accelerates the fastest axis of the setpoints at hand by its limit.
@@ -79,8 +79,19 @@ void DriveCore::stopped() {
   }
 }
 
+// The start of one channel moves no axis of another: who stands there has a key of his own.
+bool DriveCore::resume_demanded() const {
+  return any_active() && std::all_of(channels_.begin(), channels_.end(),
+                                     [](const auto& c) { return c.second.resume || !c.second.active; });
+}
+
+void DriveCore::forget_resumes() {
+  for (auto& [number, channel] : channels_) channel.resume = false;
+}
+
 void DriveCore::resume() {
-  resume_ = false, resumed_ = true;
+  forget_resumes();
+  resumed_ = true;
   bool away = off_path_;
   for (std::size_t i = 0; i < axes_.size() && phase_ == 0; ++i)
     away = away || std::abs(command_[i] - target_[i]) > on_path_distance;

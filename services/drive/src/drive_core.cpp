@@ -137,14 +137,17 @@ bool DriveCore::any_active() const {
 }
 
 void DriveCore::leave(Channel& channel) {
-  channel.active = channel.ending = false;
+  channel.active = channel.ending = channel.resume = false;
   release_spindle(channel);
+  // The others go on from between two cycles: its axes stay where they are.
+  for (const int column : channel.columns)
+    if (column >= 0) target_[static_cast<std::size_t>(column)] = command_[static_cast<std::size_t>(column)];
   if (any_active()) return;
   if (mode_ == Mode::HELD || mode_ == Mode::RETURNING) mode_ = Mode::FOLLOWING;
   target_ = command_;
   std::fill(velocity_.begin(), velocity_.end(), 0.0);
   rate_ = 1, phase_ = 0, reserve_ = 0;
-  off_path_ = resume_ = false;
+  off_path_ = false;
 }
 
 void DriveCore::request(const idl::stream::StreamRequest& request) {
@@ -159,7 +162,7 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
       start(channel, request);
       break;
     case StreamRequestKind::RESUME:
-      resume_ = mode_ == Mode::HELD;
+      channel.resume = mode_ == Mode::HELD;
       break;
     case StreamRequestKind::LEAVE:
       leave(channel);
@@ -243,7 +246,7 @@ void DriveCore::step() {
     case Mode::OFF:
       break;
     case Mode::HELD:
-      if (resume_ && prefilled(supply())) resume();
+      if (resume_demanded() && prefilled(supply())) resume();
       break;
     case Mode::RETURNING:
       step_return();

@@ -148,6 +148,7 @@ class DriveCore {
     bool ending = false;     // its last setpoints are handed over and not all executed
     bool prefilled = false;  // enough has arrived to begin
     bool begun = false;      // an epoch was started in this process
+    bool resume = false;     // continues, once every channel that was stopped does
     std::uint32_t epoch = 0, request = 0;
     std::uint64_t start = 0;
     idl::stream::ChannelSnapshot snapshot;
@@ -164,6 +165,7 @@ class DriveCore {
       visit("request", self.request), visit("start", self.start), visit("snapshot", self.snapshot);
       visit("states", self.states), visit("axes", self.axes), visit("columns", self.columns);
       visit("spindle", self.spindle), visit("skip_move", self.skip_move);
+      visit("resume", self.resume);
     }
   };
   // How far the setpoints at hand reach.
@@ -197,6 +199,8 @@ class DriveCore {
   bool approach_needed();
   void follow();
   void brake();
+  bool resume_demanded() const;
+  void forget_resumes();
   void resume();
   void step_return();
   void plan_return(const std::vector<double>& target);
@@ -260,7 +264,7 @@ class DriveCore {
   double dip_step_ = 0;
   std::uint32_t dip_depth_ = 0, dip_periods_ = 0;
   bool off_path_ = false;  // braking continued along the tangent, so the axes are not on the path
-  bool resume_ = false, resumed_ = false;
+  bool resumed_ = false;
   std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits
   std::uint32_t settle_ = 0;   // periods until the servos are at rest, in virtual time
   Homing homing_;

@@ -22,7 +22,7 @@ struct DriveState {
       visit("command", c.command_), visit("target", c.target_), visit("velocity", c.velocity_);
       visit("rate", c.rate_), visit("rate_step", c.rate_step_), visit("phase", c.phase_);
       visit("dip_step", c.dip_step_), visit("dip_depth", c.dip_depth_), visit("dip_periods", c.dip_periods_);
-      visit("off_path", c.off_path_), visit("resume", c.resume_), visit("reserve", c.reserve_);
+      visit("off_path", c.off_path_), visit("reserve", c.reserve_);
       visit("settle", c.settle_), visit("homing", c.homing_), visit("homing_axis", c.homing_axis_);
       visit("return_from", c.return_from_), visit("return_to", c.return_to_);
       visit("return_periods", c.return_periods_), visit("return_done", c.return_done_);

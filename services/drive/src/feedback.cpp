@@ -8,7 +8,7 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
   const std::size_t n = axes_.size();
   rows_.fill(out, next_);
   out.tick = tick_;
-  out.mode = mode_ == Mode::HELD && resume_ ? Mode::RETURNING : mode_;
+  out.mode = mode_ == Mode::HELD && resume_demanded() ? Mode::RETURNING : mode_;
   out.revision = revision_;
   out.axis_count = static_cast<std::uint16_t>(n);
   out.velocity.resize(n);

@@ -88,7 +88,7 @@ bool DriveCore::can_step(bool give_up) const {
     case Mode::HOMING:
       return true;
     case Mode::HELD:
-      return resume_ && prefilled(supply());
+      return resume_demanded() && prefilled(supply());
     case Mode::OFF:
       return hardware_->running_out();
     case Mode::FOLLOWING:

@@ -361,6 +361,55 @@ TEST_F(Fixture, AReturnFromVeryFarEndsWithAStop) {
   EXPECT_EQ(core.mode(), Mode::OFF);
 }
 
+TEST(TwoChannels, BehindAStopNoAxisMovesBeforeItsOwnChannelResumesOrLeaves) {
+  for (const bool leaves : {false, true}) {
+    auto p = two_axes();
+    p.values.erase(40002);
+    p.values[41001] = {1, ""};  // axis 1 belongs to channel 1
+    DriveCore core = simulated();
+    core.configure(p, true);
+    core.set_enables({1, 1}, false);
+    std::uint64_t start = 0;  // of the second channel, the lead behind the first
+    const auto feed = [&](std::uint64_t from, std::uint64_t to) {
+      for (std::uint64_t first = from; first < to; first += 8)
+        for (const std::uint16_t channel : {0, 1}) {
+          if (channel == 1 && first < start) continue;
+          AxisFrame f;
+          f.channel = channel, f.epoch = 1, f.first = first, f.count = 8, f.axes = {channel};
+          for (std::uint64_t n = first; n < first + 8; ++n)
+            f.setpoints.push_back(0.01 * static_cast<double>(channel == 0 ? n : n - start));
+          core.put(f);
+        }
+    };
+    idl::stream::FeedbackFrame out;
+    const auto run = [&](bool give_up) {
+      for (int i = 0; i < 10000 && core.can_step(give_up); ++i) core.step(), core.fill(out);
+      core.fill(out);
+    };
+    for (const std::uint16_t channel : {0, 1}) core.request({channel, 1, StreamRequestKind::NEW_EPOCH, 1});
+    core.fill(out);
+    start = out.channels[1].start;
+    feed(0, start + 160);
+    run(false);
+    run(true);
+    ASSERT_EQ(core.mode(), Mode::HELD);
+    feed(start + 160, start + 320);
+    const auto stood = core.commands();
+    core.request({0, 2, StreamRequestKind::RESUME, 1});
+    run(false);
+    EXPECT_EQ(out.mode, Mode::HELD);
+    EXPECT_EQ(core.commands(), stood);
+    core.request({1, 2, leaves ? StreamRequestKind::LEAVE : StreamRequestKind::RESUME, 1});
+    run(false);
+    EXPECT_GT(core.commands()[0], stood[0]);
+    if (leaves) {
+      EXPECT_EQ(core.commands()[1], stood[1]) << "it stays where it is, between two cycles";
+    } else {
+      EXPECT_GT(core.commands()[1], stood[1]);
+    }
+  }
+}
+
 TEST_F(Fixture, PositionsAndCyclesSurviveTheProcess) {
   begin();
   feed(0, 400, true);
