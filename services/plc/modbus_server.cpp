@@ -23,6 +23,8 @@ using Clock = std::chrono::steady_clock;
 using st::ModbusTable;
 
 constexpr std::size_t most_clients = 8;
+constexpr int most_waiting = 64;          // connections that come faster than they are taken
+constexpr int most_unread = 16384;        // bytes of answers that a client has not read
 constexpr int poll_period = 50;           // ms until the end of the thread is seen
 constexpr std::size_t least_request = 8;  // bytes: the header of 7 and a function
 constexpr double listen_period = 0.5;     // s between two attempts to listen
@@ -109,7 +111,7 @@ class ServerConnection : public ModbusLink::Connection {
     put_losses_into_tables();
     // Also the pause behind a request that is refused.
     modbus_set_response_timeout(context_.get(), 0, 1000);
-    listening_ = modbus_tcp_pi_listen(context_.get(), static_cast<int>(most_clients));
+    listening_ = modbus_tcp_pi_listen(context_.get(), most_waiting);
     if (listening_ < 0) return false;
     written_ = Clock::now();
     return true;
@@ -145,6 +147,7 @@ class ServerConnection : public ModbusLink::Connection {
     const int socket =
         accept4(listening_, reinterpret_cast<sockaddr*>(&address), &size, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (socket < 0) return;
+    setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &most_unread, sizeof most_unread);
     std::array<char, NI_MAXHOST> host{};
     getnameinfo(reinterpret_cast<sockaddr*>(&address), size, host.data(), host.size(), nullptr, 0,
                 NI_NUMERICHOST);

@@ -69,7 +69,9 @@ inline int free_port() {
 /// Asks a server.
 class Asking {
  public:
-  explicit Asking(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+  /// `unread`: bytes of answers that are taken before somebody reads them; 0 = as the system has it.
+  explicit Asking(int port, int unread = 0) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    if (unread > 0) setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &unread, sizeof unread);
     sockaddr_in address{};
     address.sin_family = AF_INET, address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     address.sin_port = htons(static_cast<std::uint16_t>(port));

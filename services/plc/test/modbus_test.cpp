@@ -312,7 +312,7 @@ TEST(ModbusServer, RequestsThatArriveTogetherAreAnsweredOneByOne) {
 TEST(ModbusServer, AClientThatReadsNoAnswersHoldsUpNobody) {
   const int port = free_port();
   Linked plc(server_file(port));
-  Asking deaf(port), good(port);
+  Asking deaf(port, 4096), good(port);
   const auto request = framed(1, 1, {2, 0, 100, 0, 8});
   while (deaf.sends(request)) {
   }
