@@ -187,7 +187,8 @@ class Check {
          {std::pair("feed_hold", inputs->feed_hold), std::pair("emergency_stop", inputs->emergency_stop)}) {
       const std::string name = entry.first, input = entry.second;
       const auto refuse = [&](const std::string& why) {
-        add(machine::at(file, node[name]) + name + " is " + input + ", " + why, file);
+        auto text = machine::at(file, node[name]);
+        add(text.append(name).append(" is ").append(input).append(", ").append(why), file);
       };
       const char* problem = nullptr;
       if (!st::writes_input(modbus, *st::parse_register(input, &problem)))

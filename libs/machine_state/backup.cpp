@@ -68,7 +68,8 @@ Backup collect(const std::string& directory, const std::string& machine, const s
   for (int i = 0; i < tries; ++i) {
     Backup backup{machine, version, time, {}, {}};
     try {
-      for (const auto& name : state_files(directory)) backup.files[name] = read_file(directory + "/" + name);
+      for (const auto& name : state_files(directory))
+        backup.files[name] = read_file(fs::path(directory) / name);
       write_state(copy, backup.files);
       problem = damage_in(copy);
     } catch (const storage::StorageError& e) {

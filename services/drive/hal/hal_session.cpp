@@ -142,7 +142,7 @@ void HalSession::end() {
   else if (is_ours(directory_))
     pid = start({"--end", directory_});
   const auto until = std::chrono::steady_clock::now() + end_timeout;
-  while (pid != 0 && process_name(pid) != "" && std::chrono::steady_clock::now() < until)
+  while (pid != 0 && !process_name(pid).empty() && std::chrono::steady_clock::now() < until)
     std::this_thread::sleep_for(poll_period);
 }
 

@@ -129,7 +129,8 @@ std::string who_has_hal() {
     const auto number = process.path().filename().string();
     if (number.find_first_not_of("0123456789") != std::string::npos) continue;
     if (process_name(std::atoi(number.c_str())) == real_time_process && shares_our_hal(process.path()))
-      return "process " + number + " (" + real_time_process + ")" + of_user;
+      return std::string("process ").append(number).append(" (").append(real_time_process).append(")") +
+             of_user;
   }
   return "a process" + of_user;
 }
