@@ -78,6 +78,6 @@ rm -rf "$work/before"
 cp -r "$work/state" "$work/before"
 for command in "get 000910" "set 000910 200"; do
   ! offline $command --machine "$work/m" || fail "$command of a damaged file: $(cat "$work/out")"
-  grep -q "$work/state/parameters.yaml" "$work/out" || fail "$(cat "$work/out")"
+  grep -q "parameters.yaml is damaged" "$work/out" || fail "$(cat "$work/out")"
 done
 diff -r "$work/before" "$work/state" || fail "the damaged state was changed"
