@@ -132,6 +132,7 @@ void DriveCore::supervise() {
 void DriveCore::acknowledge() {
   std::fill(reported_.begin(), reported_.end(), false);
   control_lost_ = false;
+  off_periods_ = 0;
   hardware_->reset_faults();
 }
 

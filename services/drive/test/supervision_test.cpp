@@ -161,6 +161,19 @@ TEST_F(Supervision, DrivesThatDoNotComeOnAreAnAlarmAfterEachReset) {
   EXPECT_EQ(core.mode(), Mode::FOLLOWING);
 }
 
+// Otherwise the alarm would come again with the reset, and whoever reset it would not see that it had ended.
+TEST_F(Supervision, AResetInThePeriodOfTheAlarmGivesTheDrivesTheirWholeTimeAgain) {
+  hardware->on = false;
+  periods(1);
+  for (std::size_t resets = 1; resets <= 3; ++resets) {
+    core.acknowledge();
+    periods(2000);
+    EXPECT_EQ(alarms.size(), resets) << "2 s";
+    periods(1);
+    ASSERT_EQ(alarms.size(), resets + 1);
+  }
+}
+
 // Travel to 20 mm; the setpoint rests at 0.
 TEST_F(Supervision, TheTravelHoldsForTheEncoderToo) {
   p.values[100006] = {20, ""}, p.values[100007] = {-20, ""}, p.values[100037] = {0, ""};
