@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "active_alarms.hpp"
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
@@ -90,21 +91,10 @@ int alarms(const Common& common, bool reset, bool take_over) {
   if (reset) station.emplace(cluster.run.domain, take_over);
   cluster::Client client(cluster.run.domain);
   if (reset) client.reset_alarms();
-  auto reader = client.bus().reader(topics::alarm);
-  const double began = service::monotonic_seconds();
-  client.wait_for_all_services([&] { return reader.matched(); });
-  // What was written before follows its writer; on a computer that takes long for those, it takes longer too.
-  const double found = service::monotonic_seconds();
-  std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> list;
-  const double until = found + std::max(0.25, 2 * (found - began));
-  idl::service::Alarm a;
-  while (service::monotonic_seconds() < until) {
-    while (reader.take(a)) list[{a.instance, a.number, a.part}] = a;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
+  ActiveAlarms active(client);
+  active.wait_for_all();
   bus::Json json = bus::Json::array();
-  for (const auto& [key, entry] : list) {
-    if (!entry.active) continue;
+  for (const auto& [key, entry] : active.take()) {
     json.push_back(bus::to_json(entry));
     if (!common.json)
       std::printf("%4u %-10s %-12s cycle %-10llu %s\n", entry.number, bus::to_string(entry.severity),
