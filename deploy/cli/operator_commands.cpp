@@ -15,6 +15,7 @@
 #include "commands.hpp"
 #include "commands/command_table.hpp"
 #include "new_alarms.hpp"
+#include "text/instant.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -84,6 +85,19 @@ int mdi(const Common& common, const Line& line) {
   return 0;
 }
 
+struct ActiveAlarm {
+  idl::service::Alarm alarm;
+  std::string raised;  // ISO 8601 in UTC
+};
+
+// The cycle is that of the stream; what has nothing to do with the stream names none.
+void print_alarm(const ActiveAlarm& one) {
+  const auto& a = one.alarm;
+  const auto cycle = a.cycle == 0 ? "-" : std::to_string(a.cycle);
+  std::printf("%4u %-10s %-12s %s cycle %-10s %s\n", a.number, bus::to_string(a.severity), a.source.c_str(),
+              one.raised.c_str(), cycle.c_str(), a.text.c_str());
+}
+
 int alarms(const Common& common, bool reset, bool take_over) {
   const auto cluster = cluster::find_cluster(common.domain);
   std::optional<cluster::OperatingStation> station;
@@ -95,20 +109,21 @@ int alarms(const Common& common, bool reset, bool take_over) {
   client.wait_for_all_services([&] { return reader.matched(); });
   // What was written before follows its writer; on a computer that takes long for those, it takes longer too.
   const double found = service::monotonic_seconds();
-  std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> list;
+  std::map<std::array<std::uint32_t, 3>, ActiveAlarm> list;
   const double until = found + std::max(0.25, 2 * (found - began));
   idl::service::Alarm a;
   while (service::monotonic_seconds() < until) {
-    while (reader.take(a)) list[{a.instance, a.number, a.part}] = a;
+    while (reader.take(a))
+      list[{a.instance, a.number, a.part}] = {
+          a, text::instant(static_cast<std::uint64_t>(reader.info().source_timestamp))};
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   bus::Json json = bus::Json::array();
   for (const auto& [key, entry] : list) {
-    if (!entry.active) continue;
-    json.push_back(bus::to_json(entry));
-    if (!common.json)
-      std::printf("%4u %-10s %-12s cycle %-10llu %s\n", entry.number, bus::to_string(entry.severity),
-                  entry.source.c_str(), static_cast<unsigned long long>(entry.cycle), entry.text.c_str());
+    if (!entry.alarm.active) continue;
+    json.push_back(bus::to_json(entry.alarm));
+    json.back()["raised"] = entry.raised;
+    if (!common.json) print_alarm(entry);
   }
   if (common.json) std::cout << bus::text_of(json, 2) << "\n";
   if (!common.json && json.empty()) std::printf("no alarms\n");
@@ -139,7 +154,8 @@ void add_operator_commands(CLI::App& app, Common& common) {
 
   auto reset = std::make_shared<bool>(false);
   auto take_over = std::make_shared<bool>(false);
-  command = add_command(app, common, "alarms", "List the active alarms",
+  command = add_command(app, common, "alarms",
+                        "List the active alarms: when each was raised (UTC), and at which cycle",
                         [&common, reset, take_over] { return alarms(common, *reset, *take_over); });
   command->add_flag("--reset", *reset, "Clear those whose cause is gone first");
   command->add_flag("--take-right", *take_over, cluster::take_right_help);
