@@ -23,6 +23,7 @@ int run_verification(const Common& common, verification::VerifyOptions options,
     auto json = verification::json_of(result.difference);
     json["equal"] = result.equal();
     json["problem"] = result.problem;
+    json["parameters"] = result.parameters;
     json["cut_off"] = result.cut_off;
     json["inputs"] = result.inputs;
     json["outputs"] = result.outputs;
@@ -39,6 +40,7 @@ int run_verification(const Common& common, verification::VerifyOptions options,
     return status;
   }
   std::cout << verification::text_of(result.difference, "recorded", "written now");
+  if (!result.parameters.empty()) std::cout << "parameters: " << result.parameters << "\n";
   if (!result.problem.empty()) std::cout << "problem: " << result.problem << "\n";
   if (!result.cut_off.empty()) std::printf("verified as far as it goes: %s\n", result.cut_off.c_str());
   std::printf("%s: %s; %zu messages in, %zu out", options.service.c_str(),
@@ -74,8 +76,12 @@ void add_verify_command(CLI::App& app, Common& common) {
   command->add_option("--exec", options->executable, "Executable to verify (default: the one of this build)");
   command->add_option("--vendor", options->vendor, "DDS vendor of the service")
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
-  command->add_option("--machine", options->machine,
-                      "Name or directory of the machine (default: the one the recording names)");
+  command->add_option(
+      "--machine", options->machine,
+      "Name or directory of the machine with its programs (default: the one the recording names); "
+      "parameters are the recording's");
+  command->add_flag("--machine-parameters", options->machine_parameters,
+                    "Use the parameters of the machine's directory instead of the recording's");
   command->add_option("--channel", options->channel, "Which channel, for --service channel")
       ->check(CLI::Range(0, 31));
   command

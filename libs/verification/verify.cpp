@@ -9,8 +9,10 @@
 #include "bus/bus.hpp"
 #include "cluster/child_process.hpp"
 #include "contracts/topics.hpp"
+#include "machine/machine.hpp"
 #include "service/node.hpp"
 #include "verification/answers.hpp"
+#include "verification/machine_values.hpp"
 #include "verification/repetitions.hpp"
 #include "verification/verify_gateway.hpp"
 #include "verification/verify_place.hpp"
@@ -222,6 +224,22 @@ VerifyResult verify_service(const VerifyOptions& options, const StoredRecording&
   return result;
 }
 
+// Which parameters the service gets, in one line when that needs saying.
+std::string choose_parameters(const VerifyOptions& options, StoredRecording& recording) {
+  const auto directory = machine_directory(options, recording);
+  const auto delivered = machine::machine_parameters(machine::load_machine(directory));
+  const auto apart = parameters_apart(recording, delivered);
+  if (!options.machine_parameters)
+    return apart.empty() ? ""
+                         : "those of the recording, which has its own; in " + directory + " " + apart +
+                               "; --machine-parameters uses the machine's";
+  if (options.service == "parameters")
+    throw std::runtime_error(
+        "--machine-parameters: the parameters are what service parameters writes: verify another one");
+  use_parameters(recording, delivered);
+  return "those of " + directory + ", " + (apart.empty() ? "as recorded" : apart);
+}
+
 }  // namespace
 
 VerifyResult verify(const VerifyOptions& options) {
@@ -229,8 +247,10 @@ VerifyResult verify(const VerifyOptions& options) {
   if (!recording.damages.empty()) throw std::runtime_error(options.recording + ": " + recording.problem);
   drop_repetitions(recording.messages);
   try {
+    const auto parameters = choose_parameters(options, recording);
     auto result = options.service == "gateway" ? verify_gateway(options, recording)
                                                : verify_service(options, recording);
+    result.parameters = parameters;
     result.cut_off = recording.problem;
     return result;
   } catch (const std::runtime_error& error) {
