@@ -8,12 +8,13 @@
 #include "bus/json.hpp"
 #include "commands.hpp"
 #include "verification/verify.hpp"
+#include "verification/verify_plan.hpp"
 
 namespace trunnion::cli {
 namespace {
 
-int run_verification(const Common& common, verification::VerifyOptions options,
-                     const std::vector<std::string>& tolerances, const std::vector<std::string>& required) {
+int verify_service(const Common& common, verification::VerifyOptions options,
+                   const std::vector<std::string>& tolerances, const std::vector<std::string>& required) {
   options.domain = common.domain;
   for (const auto& text : tolerances) verification::add_tolerance(options.comparison, text);
   const auto result = verification::verify(options);
@@ -56,6 +57,18 @@ int run_verification(const Common& common, verification::VerifyOptions options,
     std::printf("%s: %s\n", options.service.c_str(), text_of(result.features).c_str());
   for (const auto& name : missing) std::printf("required, and not in the recording: %s\n", name.c_str());
   return status;
+}
+
+// In JSON it is told apart from a failure, unless features are required: those are not in the recording.
+int run_verification(const Common& common, const verification::VerifyOptions& options,
+                     const std::vector<std::string>& tolerances, const std::vector<std::string>& required) {
+  try {
+    return verify_service(common, options, tolerances, required);
+  } catch (const verification::NothingToVerify& nothing) {
+    if (!common.json || !required.empty()) throw;
+    std::cout << bus::text_of({{"equal", false}, {"skipped", nothing.what()}}, 2) << "\n";
+    return 1;
+  }
 }
 
 }  // namespace

@@ -253,6 +253,8 @@ VerifyResult verify(const VerifyOptions& options) {
     result.parameters = parameters;
     result.cut_off = recording.problem;
     return result;
+  } catch (const NothingToVerify&) {
+    throw;
   } catch (const std::runtime_error& error) {
     if (recording.complete) throw;
     throw std::runtime_error(std::string(error.what()) + "; " + recording.problem);

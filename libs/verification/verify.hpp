@@ -42,7 +42,7 @@ struct VerifyResult {
 
 /// The service is started in a domain of its own and stopped again, however this ends. Throws
 /// std::runtime_error when the recording cannot be used, as one of which something is missing in the middle,
-/// or the service cannot be started.
+/// or the service cannot be started; NothingToVerify (verify_plan.hpp) when the recording has nothing for it.
 VerifyResult verify(const VerifyOptions& options);
 
 }  // namespace trunnion::verification

@@ -242,6 +242,30 @@ VerifyPlan surroundings(const StoredRecording& recording, const std::string& ser
   return plan;
 }
 
+namespace {
+
+[[noreturn]] void refuse_empty(const StoredRecording& recording, const std::string& service,
+                               std::uint16_t channel, const VerifyPlan& plan) {
+  const auto what = "the recording has no output of service " + service +
+                    (service == "channel" ? " " + std::to_string(channel) : "") +
+                    " that follows from its inputs";
+  const bool refused = plan.seed && !plan.seed->refused.empty();
+  const auto* stage = find_stage(service);
+  if (stage != nullptr && std::ranges::any_of(plan.steps, [stage](const Step& step) {
+        return step.message->topic->handle == stage->input;
+      }))
+    throw std::runtime_error(what + ", of which it has some");
+  if (!refused && recording.foreign.empty()) throw NothingToVerify(what + ": it had nothing to do");
+  throw std::runtime_error(
+      what +
+      (refused ? " and came behind its state, which it could not give before: " + plan.seed->refused : "") +
+      (recording.foreign.empty()
+           ? ""
+           : "; it was made with another contract, for " + *recording.foreign.begin() + " at least"));
+}
+
+}  // namespace
+
 VerifyPlan plan_verification(const StoredRecording& recording, const std::string& service,
                              std::uint16_t channel) {
   auto plan = surroundings(recording, service, channel);
@@ -260,8 +284,8 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
     plan_stage(recording, *stage, plan);
   } else {
     if (says_when(service) && !plan.virtual_time)
-      throw std::runtime_error("service " + service +
-                               " cannot be verified: in real time its periods follow the clock");
+      throw NothingToVerify("service " + service +
+                            " cannot be verified: in real time its periods follow the clock");
     const auto seeds = find_seeds(recording, plan.instance);
     if (says_when(service)) {
       plan_by_tick(recording, service, seeds, plan);
@@ -275,16 +299,7 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
       definition != nullptr && definition->not_verified)
     throw std::runtime_error("service " + service +
                              " is not verified: what it writes depends on its own clock");
-  if (plan.expected.empty())
-    throw std::runtime_error(
-        "the recording has no output of service " + service +
-        (service == "channel" ? " " + std::to_string(channel) : "") + " that follows from its inputs" +
-        (plan.seed && !plan.seed->refused.empty()
-             ? " and came behind its state, which it could not give before: " + plan.seed->refused
-             : "") +
-        (recording.foreign.empty()
-             ? ""
-             : "; it was made with another contract, for " + *recording.foreign.begin() + " at least"));
+  if (plan.expected.empty()) refuse_empty(recording, service, channel, plan);
   return plan;
 }
 

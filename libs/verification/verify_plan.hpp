@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,19 @@ struct VerifyPlan {
   std::size_t drop_unrecorded(std::vector<StoredMessage>& produced) const;
 };
 
+/// The recording gives nothing to verify a service with, however right or wrong it is: it had nothing to do,
+/// or its periods followed the clock.
+class NothingToVerify : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Stages are fed by cycle: a frame when the drive had executed what the channel's credit for it needs and
 /// the stage is at most some frames behind; one that starts when everything before it is done; parameters
 /// before the first frame made with them. Other services are fed in the order of the recording, each message
 /// once the service has written what it had written before it. `channel` matters to a channel only.
-/// Throws std::runtime_error when the recording does not have what it takes.
+/// Throws std::runtime_error when the recording does not have what it takes, NothingToVerify when that is not
+/// its fault.
 VerifyPlan plan_verification(const StoredRecording& recording, const std::string& service,
                              std::uint16_t channel);
 VerifyPlan plan_verification(StoredRecording&&, const std::string&,
