@@ -114,6 +114,7 @@ constexpr std::array recorder_options{
         "--free-space",
         "MB that must be free on the disk for a start; below it a warning, below a tenth of it the "
         "end (default: 200; 0: not checked)"},
+    RecorderOption{"--compression", "Of the chunks in the file: none or zstd (default: zstd)"},
     RecorderOption{"--part-size",
                    "MiB after which a new part begins: FILE-0001 and so on, each whole in itself"},
     RecorderOption{"--part-time", "Seconds after which a new part begins"},

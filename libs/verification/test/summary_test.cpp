@@ -33,6 +33,9 @@ TEST(Summary, CountsTopicsCyclesAndGapsAndNamesTheContract) {
   EXPECT_TRUE(s.complete);
   EXPECT_TRUE(s.same_contract);
   EXPECT_EQ(s.metadata.at("machine"), "bench");
+  EXPECT_EQ(s.compressions, (std::map<std::string, std::uint64_t>{{"zstd", 1}})) << "a chunk has 1 MiB";
+  EXPECT_NE(text_of(s).find("chunks     1, compression zstd\n"), std::string::npos) << text_of(s);
+  EXPECT_EQ(json_of(s)["compressions"]["zstd"], 1);
   EXPECT_EQ(s.revisions, (std::set<std::uint64_t>{1}));
   EXPECT_EQ(s.participants, (std::set<std::string>{"drive fastdds 0.1.0 abc"}));
   ASSERT_EQ(s.streams.size(), 3u);
