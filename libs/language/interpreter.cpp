@@ -33,6 +33,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   }
   control_.forget_call();
   variables_.start(variables);
+  control_.set_skip_position(variables_.skip_position());
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
   queue_.clear();
   alarm_ = Alarm{};
@@ -181,7 +182,8 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
 void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {
   if (executor_.needs_position()) {
     executor_.set_position(touched);
-    control_.set_skip_position(executor_.workpiece_position());
+    variables_.set_skip_position(executor_.workpiece_position());
+    control_.set_skip_position(variables_.skip_position());
   }
   executor_.set_position(position);
 }

@@ -20,6 +20,16 @@ void Variables::start(const VariableStore& store) {
   levels_[0].values.fill({});
 }
 
+std::array<double, 9> Variables::skip_position() const {
+  std::array<double, 9> position{};
+  for (std::size_t i = 0; i < position.size(); ++i) position[i] = store_.skip[i].number;
+  return position;
+}
+
+void Variables::set_skip_position(const std::array<double, 9>& position) {
+  for (std::size_t i = 0; i < position.size(); ++i) store_.skip[i] = Value::of(position[i]);
+}
+
 void Variables::enter(const Arguments& arguments) {
   Level& level = levels_[++level_];
   level.arguments = arguments;

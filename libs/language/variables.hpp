@@ -77,7 +77,8 @@ inline constexpr std::array variable_ranges = {
                   "end of the block before, program coordinates, X Y Z A B C U V W"},
     VariableRange{5021, 5029, VariableKind::machine_position, false, "position, machine coordinates"},
     VariableRange{5041, 5049, VariableKind::work_position, false, "position, workpiece coordinates"},
-    VariableRange{5061, 5069, VariableKind::skip_position, false, "where G31 stopped, workpiece coordinates"},
+    VariableRange{5061, 5069, VariableKind::skip_position, false,
+                  "where the newest G31 stopped, workpiece coordinates; kept"},
     VariableRange{5081, 5089, VariableKind::active_length, false, "active tool length by axis: 5083 for Z"},
     VariableRange{5221, 5329, VariableKind::work_offset, true,
                   "work offsets: 5221 X of G54, 5241 of G55 .. 5321 of G59"},
@@ -94,6 +95,7 @@ constexpr bool is_system_variable(double number) { return number >= 1000 && numb
 struct VariableStore {
   std::array<Value, 150> common{};  ///< #50..#199
   std::array<Value, 500> kept{};    ///< #500..#999
+  std::array<Value, 9> skip{};      ///< #5061..#5069, mm and degrees whatever the units of the program
   std::array<Value, 5000> user{};   ///< #50000..#54999
 };
 
@@ -147,6 +149,10 @@ class Variables {
 
   /// AR[#n]: 0 when the call did not give local variable n, else 90 or 91 as G90 or G91 was active then.
   AlarmNumber argument(double number, Value& value) const;
+
+  /// Of each axis, 0 when no skip move has ended yet.
+  std::array<double, 9> skip_position() const;
+  void set_skip_position(const std::array<double, 9>& position);
 
   const VariableStore& store() const { return store_; }
   /// Of the innermost level.
