@@ -183,6 +183,19 @@ TEST(ToolRows, ReadsRowsNamesAndComments) {
   EXPECT_EQ(rows.at(12).length, -7);
   EXPECT_EQ(rows.at(12).radius, 0);
   EXPECT_TRUE(read_tool_rows("", "tools.csv").empty());
+  EXPECT_EQ(read_tool_rows("\xef\xbb\xbf" "1,50,3\n", "tools.csv").at(1).length, 50);
+}
+
+TEST(ToolRows, AFirstLineWithNumbersIsNoLineOfNames) {
+  EXPECT_EQ(read_tool_rows("1,50,3\n2,60,3\n", "tools.csv").size(), 2u);
+  for (const char* first : {"T1,50,3", "1;50;3", "T1;50;3", "end mill,50,3"}) {
+    try {
+      read_tool_rows(first + std::string("\n2,60,3\n"), "tools.csv");
+      ADD_FAILURE() << first;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("tools.csv:1: tool number must be a whole number")) << first;
+    }
+  }
 }
 
 TEST(ToolRows, WrongRowIsRefusedWithItsLine) {
