@@ -67,6 +67,12 @@ TEST_F(StateCheck, AnEditedProgramIsTakenWhenTheOperatorAcceptsIt) {
   EXPECT_EQ(problems(state()), "");
 }
 
+TEST_F(StateCheck, ADirectoryInThePlaceOfAFileIsNamed) {
+  std::filesystem::remove(state() + "/journal.jsonl");
+  std::filesystem::create_directories(state() + "/journal.jsonl");
+  EXPECT_EQ(problems(state()), "journal.jsonl: it is no file: move it away\n");
+}
+
 TEST_F(StateCheck, NothingElseCanBeAccepted) {
   for (const auto* name : {"encoders.bin", "../state/tools.yaml", "none.yaml", "cluster.boot"})
     EXPECT_THROW(accept(state(), name), std::runtime_error) << name;
