@@ -141,7 +141,10 @@ Json StateDocument::services(double now) const {
   };
   for (const auto& [instance, known] : services_) {
     const auto wanted = expected.find(instance);
-    add(instance, known, wanted != expected.end() ? wanted->second : nullptr);
+    const bool planned = wanted != expected.end();
+    // Another process has its place, after a swap say: its silence is no fault.
+    if (!planned && has_cluster_ && now - known.heard >= heartbeat_timeout) continue;
+    add(instance, known, planned ? wanted->second : nullptr);
   }
   for (const auto& [instance, wanted] : expected)
     if (!services_.contains(instance)) add(instance, nothing, wanted);

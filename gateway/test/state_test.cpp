@@ -113,6 +113,9 @@ TEST(StateDocument, AServiceIsSilentWithoutHeartbeatAndAbsentWhenExpectedButNeve
   expected.service = "plc";
   expected.restarts = 2;
   cluster.services.push_back(expected);
+  auto other = expected;
+  other.instance = 4;
+  cluster.services.push_back(other);
   document.apply(cluster);
   auto json = document.document(10.0 + heartbeat_timeout / 2)["services"];
   EXPECT_EQ(json["4"]["alive"], true);
@@ -123,6 +126,24 @@ TEST(StateDocument, AServiceIsSilentWithoutHeartbeatAndAbsentWhenExpectedButNeve
   EXPECT_EQ(json["9"]["restarts"], 2);
   json = document.document(10.0 + 2 * heartbeat_timeout)["services"];
   EXPECT_EQ(json["4"]["alive"], false);
+}
+
+TEST(StateDocument, AProcessThatASwapHasReplacedIsShownUntilItIsSilent) {
+  StateDocument document;
+  document.apply(beat(4, 100), 10.0);
+  idl::service::Cluster cluster{};
+  idl::service::ClusterService successor{};
+  successor.instance = 12;
+  cluster.services.push_back(successor);
+  document.apply(cluster);
+  document.apply(beat(12, 101), 10.0);
+  auto json = document.document(10.0)["services"];
+  EXPECT_EQ(json["4"]["alive"], true);
+  EXPECT_EQ(json["4"]["expected"], false);
+  document.apply(beat(12, 101), 10.0 + 2 * heartbeat_timeout);
+  json = document.document(10.0 + 2 * heartbeat_timeout)["services"];
+  EXPECT_FALSE(json.contains("4"));
+  EXPECT_EQ(json["12"]["alive"], true);
 }
 
 TEST(StateDocument, TheAlarmsOfADeadProcessGoWhenItsSuccessorBeats) {
