@@ -54,7 +54,7 @@ void add_swap_command(CLI::App& app, Common& common);          // swap
 void add_upgrade_command(CLI::App& app, Common& common);       // upgrade
 void add_user_command(CLI::App& app, Common& common);          // user
 void add_certificate_command(CLI::App& app, Common& common);   // certificate
-void add_new_command(CLI::App& app, Common& common);           // new service
+void add_new_command(CLI::App& app, Common& common);           // new service, new machine
 void add_completion_command(CLI::App& app, Common& common);    // completion
 void add_check_machine_command(CLI::App& app, Common& common);
 

@@ -159,6 +159,16 @@ TEST(MachineCheck, AMachineWithoutItsFiles) {
               ElementsAre("parameters.yaml: error: cannot be opened", "plc: error: is no directory"));
 }
 
+// As `cp -r configs/machines/four-axis mine` leaves it.
+TEST(MachineCheck, ALinkThatLeadsNowhereIsNamedOnce) {
+  Copy copy("four-axis");
+  copy.remove("plc");
+  fs::create_symlink("../ac-table/plc", fs::path(copy.path()) / "plc");
+  EXPECT_THAT(copy.findings(),
+              ElementsAre("plc: error: is a link to '../ac-table/plc', which is not there: 'trunnion new "
+                          "machine NAME --from MACHINE' copies a machine whole"));
+}
+
 TEST(MachineCheck, TheBodiesAndTheTruth) {
   Copy copy("ac-table");
   copy.append("bodies.yaml", "\nnothing: 1\n").write("truth.yaml", "nothing: 1\n");
