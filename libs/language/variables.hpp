@@ -15,6 +15,7 @@ struct Value {
   double number = 0;  ///< 0 when not given
   bool given = false;
   static constexpr Value of(double number) { return {number, true}; }
+  bool operator==(const Value&) const = default;
 };
 
 /// Which variables there are. Where Fanuc and HNC-8 use a number differently, the choice is made here.
@@ -97,9 +98,19 @@ struct VariableStore {
   std::array<Value, 500> kept{};    ///< #500..#999
   std::array<Value, 9> skip{};      ///< #5061..#5069, mm and degrees whatever the units of the program
   std::array<Value, 5000> user{};   ///< #50000..#54999
+  bool operator==(const VariableStore&) const = default;
 };
 
 inline constexpr std::uint32_t local_variables = 50;
+inline constexpr std::size_t variable_levels = 9;
+
+/// What a program could read at one moment, but for system variables.
+struct VariableImage {
+  VariableStore store;
+  std::array<std::array<Value, local_variables>, variable_levels> locals{};
+  std::size_t level = 0;
+  std::uint64_t system_reads = 0;  ///< how often the program had read one since its start
+};
 
 /// The letters of a macro call as the variables they become.
 struct Arguments {
@@ -124,7 +135,7 @@ class SystemVariables {
 /// Everything an expression can name. No allocation.
 class Variables {
  public:
-  static constexpr std::size_t max_levels = 9;
+  static constexpr std::size_t max_levels = variable_levels;
 
   explicit Variables(SystemVariables& system) : system_(system) {}
 
@@ -155,6 +166,9 @@ class Variables {
   void set_skip_position(const std::array<double, 9>& position);
 
   const VariableStore& store() const { return store_; }
+  void copy_to(VariableImage& image) const;
+  /// False also when a system variable was read since.
+  bool same_as(const VariableImage& image) const;
   /// Of the innermost level.
   const std::array<Value, local_variables>& locals() const { return levels_[level_].values; }
 
@@ -171,6 +185,7 @@ class Variables {
   VariableStore store_;
   std::array<Level, max_levels> levels_{};
   std::size_t level_ = 0;
+  mutable std::uint64_t system_reads_ = 0;
 };
 
 }  // namespace trunnion::language
