@@ -14,6 +14,20 @@ import { programs } from "./programs.mjs";
 import { scene } from "./scene.mjs";
 import { setup } from "./setup.mjs";
 
+/** How the parts that show values are drawn. */
+const coloured = (page) =>
+  page.evaluate(() => [...document.querySelectorAll("header > :not(.stops), .attention, main")].map((element) => getComputedStyle(element).filter));
+
+/** Texts outside `selector` that are at least as large as it. */
+const asLargeAs = (page, selector) =>
+  page.evaluate((wanted) => {
+    const size = (element) => parseFloat(getComputedStyle(element).fontSize);
+    const largest = document.querySelector(wanted);
+    return [...document.querySelectorAll("body *")]
+      .filter((element) => element.getClientRects().length > 0 && !element.contains(largest) && element.textContent && size(element) >= size(largest))
+      .map((element) => `${element.tagName}.${element.className} ${size(element)}`);
+  }, selector);
+
 async function run(page, url) {
   const text = (selector) => page.locator(selector).first().innerText();
   const shown = (name) => page.locator(`[data-test="${name}"]`).getAttribute(`data-${name}`);
@@ -176,11 +190,22 @@ async function run(page, url) {
     check(`a lost connection is unmistakable, after ${Date.now() - stopped} ms`, (await text(".lost h1")) === "Connection lost");
     const covered = await coveredStops(page);
     check(`and does not cover the keys that stop ${covered}`, covered.length === 0);
+    check("no value keeps its colour", (await coloured(page)).every((filter) => filter === "grayscale(1)"));
+    check("nobody says that the cluster is ready", (await text("[data-test=cluster]")) === "Connection lost");
+    for (const [width, height] of [[390, 844], [1920, 1080], [1280, 800]]) {
+      await page.setViewportSize({ width, height });
+      await eventually("the page has its new size", () => page.evaluate(() => innerWidth), (now) => now === width);
+      const large = await asLargeAs(page, ".lost h1");
+      check(`nothing at ${width}x${height} is as large as the loss ${large}`, large.length === 0);
+      const cut = await page.locator(".lost").evaluate((element) => element.scrollWidth > element.clientWidth || element.scrollHeight > element.clientHeight);
+      check(`and the loss fits at ${width}x${height}`, !cut);
+    }
     await shot(page, "lost");
     const continued = Date.now();
     signalGateway("SIGCONT");
     await eventually("the page is connected again", async () => (await page.locator(".lost").count()) === 0);
     check(`and it heals by itself, after ${Date.now() - continued} ms`, true);
+    check("the values have their colour again", (await coloured(page)).every((filter) => filter === "none"));
     signalGateway("SIGKILL");
     await page.waitForSelector(".lost h1");
     check("a gateway that has ended is a lost connection, too", true);

@@ -4,7 +4,9 @@
 import { duration } from "../format";
 import { cyclePeriod } from "../state/cycle_period";
 import { plan, remaining } from "../state/plan";
-import { channel, channelList, channelName, channelNumber, channels, chooseChannel, holdAll, machine, runTime, stop } from "../state/store";
+import {
+  channel, channelList, channelName, channelNumber, channels, chooseChannel, connection, holdAll, machine, runTime, stop,
+} from "../state/store";
 import { text } from "../text/texts";
 import { Operator } from "./OperatingRight";
 import { onPress } from "./press";
@@ -79,19 +81,25 @@ function Progress() {
   );
 }
 
+/** Whether the cluster is ready, which nobody knows without the gateway. */
+function ClusterTag() {
+  const t = text.value;
+  const cluster = machine.value.cluster;
+  const lost = connection.value === "lost";
+  const state = lost ? t.connectionLost : !cluster ? t.noCluster : cluster.ready ? t.clusterReady : t.clusterNotReady;
+  return <span class={`tag ${cluster?.ready && !lost ? "good" : "warn"}`} data-test="cluster">{state}</span>;
+}
+
 export function Header() {
-  const state = machine.value;
   const one = channel.value;
-  const cluster = state.cluster;
+  const cluster = machine.value.cluster;
   const t = text.value;
   const typed = one?.mode === "MDI" && one.state !== "IDLE" && !one.suspended;
   return (
     <header aria-label={t.stateBar}>
       <div class="machine-name">
         <strong data-test="machine">{cluster?.machine || "Trunnion"}</strong>
-        <span class={`tag ${cluster?.ready ? "good" : "warn"}`} data-test="cluster">
-          {cluster ? (cluster.ready ? t.clusterReady : t.clusterNotReady) : t.noCluster}
-        </span>
+        <ClusterTag />
         <Operator />
         {cluster?.virtual_time && <span class="tag note">{t.virtualTime}</span>}
       </div>

@@ -118,7 +118,7 @@ export function Page() {
     return () => window.removeEventListener("keydown", onKey);
   }, []);
   return (
-    <div class={`page ${machine.value.plc?.emergency_stop ? "stopped" : ""}`}>
+    <div class={`page ${machine.value.plc?.emergency_stop ? "stopped" : ""} ${live ? "" : "old"}`}>
       <Header />
       <Attention />
       <Rail />
