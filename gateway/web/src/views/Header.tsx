@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state bar over the whole width, in every view: what the channel does, and the two keys that stop. Nothing may lie
-// over it (style.css keeps it above everything else).
+// over it (style.css keeps it above everything else), and no content moves the keys: they have an area of fixed size.
 import { duration } from "../format";
 import { cyclePeriod } from "../state/cycle_period";
 import { plan, remaining } from "../state/plan";
@@ -97,26 +97,28 @@ export function Header() {
   const typed = one?.mode === "MDI" && one.state !== "IDLE" && !one.suspended;
   return (
     <header aria-label={t.stateBar}>
-      <div class="machine-name">
-        <strong data-test="machine">{cluster?.machine || "Trunnion"}</strong>
-        <ClusterTag />
-        <Operator />
-        {cluster?.virtual_time && <span class="tag note">{t.virtualTime}</span>}
+      <div class="facts">
+        <div class="machine-name">
+          <strong data-test="machine">{cluster?.machine || "Trunnion"}</strong>
+          <ClusterTag />
+          <Operator />
+          {cluster?.virtual_time && <span class="tag note">{t.virtualTime}</span>}
+        </div>
+        <ChannelTabs />
+        {one && (
+          <>
+            <span class="mode" data-test="mode" data-mode={one.mode}>{t[`mode${one.mode}`]}</span>
+            <span class={`state ${one.state.toLowerCase()}`} data-test="state" data-state={one.state}>{t[`state${one.state}`]}</span>
+            <div class="run">
+              <b class="program-name" data-test="running">{typed ? t.modeMDI : one.program || t.noProgram}</b>
+              {!typed && <Progress />}
+              <span class="dim digits">{!typed && one.lines_total > 0 && t.lineOf(one.line, one.lines_total)}</span>
+            </div>
+            <Elapsed number={one.channel} />
+            <Remaining />
+          </>
+        )}
       </div>
-      <ChannelTabs />
-      {one && (
-        <>
-          <span class="mode" data-test="mode" data-mode={one.mode}>{t[`mode${one.mode}`]}</span>
-          <span class={`state ${one.state.toLowerCase()}`} data-test="state" data-state={one.state}>{t[`state${one.state}`]}</span>
-          <div class="run">
-            <b class="program-name" data-test="running">{typed ? t.modeMDI : one.program || t.noProgram}</b>
-            {!typed && <Progress />}
-            <span class="dim digits">{!typed && one.lines_total > 0 && t.lineOf(one.line, one.lines_total)}</span>
-          </div>
-          <Elapsed number={one.channel} />
-          <Remaining />
-        </>
-      )}
       <div class="stops">
         <button class="hold" data-test="feed-hold" title={t.feedHoldAbout} {...onPress(holdAll)}>
           {t.feedHold}
