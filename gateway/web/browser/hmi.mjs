@@ -28,6 +28,20 @@ const asLargeAs = (page, selector) =>
       .map((element) => `${element.tagName}.${element.className} ${size(element)}`);
   }, selector);
 
+/** Keys and fields that `selector`, which is shown, lies over. */
+const coveredKeys = (page, selector) =>
+  page.evaluate((what) => {
+    const over = document.querySelector(what)?.getBoundingClientRect();
+    if (!over) return [];
+    return [...document.querySelectorAll("button, input, select, textarea")]
+      .filter((key) => key.getClientRects().length > 0)
+      .filter((key) => {
+        const box = key.getBoundingClientRect();
+        return box.left < over.right && over.left < box.right && box.top < over.bottom && over.top < box.bottom;
+      })
+      .map((key) => key.getAttribute("aria-label") ?? key.textContent);
+  }, selector);
+
 async function run(page, url) {
   const text = (selector) => page.locator(selector).first().innerText();
   const shown = (name) => page.locator(`[data-test="${name}"]`).getAttribute(`data-${name}`);
@@ -38,10 +52,16 @@ async function run(page, url) {
   check("nothing covers the page when the connection is there", true);
   const refuse = page.waitForResponse((response) => response.url().endsWith("/mdi"));
   await at("mdi").fill("?? X1");
-  await told(page, /^MDI: /, () => at("mdi-send").click(), { refused: true });
+  await told(page, /^MDI:(?!\s*MDI)/, () => at("mdi-send").click(), { refused: true });
   check("bad MDI is answered with 409 or 400", [400, 409].includes((await refuse).status()));
   check("and the reason is on the page", true);
   check("and the line stays to be corrected", (await at("mdi").inputValue()) === "?? X1");
+  const under = await coveredKeys(page, ".notice");
+  check(`and covers no key ${under}`, under.length === 0);
+  await at("view-diagnosis").click();
+  await page.locator(".notice").waitFor({ state: "detached" });
+  check("and is not taken into another view", true);
+  await at("view-operate").click();
   await at("mdi").fill("");
 
   if (!TRUNNION_URL) {

@@ -56,3 +56,8 @@ export function limits(minimum: number | undefined, maximum: number | undefined)
 export function unit(text: string, or = "or"): string {
   return text.replace(/deg/g, "°").replace(/\|/g, ` ${or} `).replace(/2$|2(?= )/g, "²");
 }
+
+/** What was not done, and why; the channel names MDI, with line and column, in its reasons itself. */
+export function refusal(what: string, reason: string): string {
+  return reason.startsWith(`${what}:`) ? reason : `${what}: ${reason}`;
+}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import { bytes, compact, duration, limits, millimetres, title, unit } from "../src/format";
+import { bytes, compact, duration, limits, millimetres, refusal, title, unit } from "../src/format";
 
 test("a position never reads minus zero and a negative one has a minus sign", () => {
   expect(millimetres(-0.0001)).toBe("0.000");
@@ -22,4 +22,10 @@ test("what the catalogue writes for programs is shown for people", () => {
   expect(limits(undefined, undefined)).toBe("");
   expect(unit("mm/s2|deg/s2")).toBe("mm/s² or °/s²");
   expect(unit("cycles")).toBe("cycles");
+});
+
+test("a refusal names what was not done once", () => {
+  expect(refusal("MDI", "MDI:1:4: unknown word")).toBe("MDI:1:4: unknown word");
+  expect(refusal("MDI", "no MDI while a program runs")).toBe("MDI: no MDI while a program runs");
+  expect(refusal("T1", "T12: not there")).toBe("T1: T12: not there");
 });

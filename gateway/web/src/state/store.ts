@@ -3,6 +3,7 @@
 import { computed, signal } from "@preact/signals";
 import { type Answer, answerOf, type OrderAnswer, post, waitUntilShown } from "../api";
 import type { ChannelCommands } from "../contract";
+import { refusal } from "../format";
 import { text } from "../text/texts";
 import { History } from "./history";
 import { channelNumbers, emptyStream, type Message, receive, type Stream } from "./model";
@@ -70,13 +71,18 @@ export function tell(text: string, refused: boolean): void {
   noticeTimer = setTimeout(() => (notice.value = null), refused ? 12000 : 4000);
 }
 
+// What was told is about the view in which it was done.
+view.subscribe(() => {
+  notice.value = null;
+});
+
 /** Sends a request and shows the refusal, if there is one; true when accepted. */
 export async function request(what: string, path: string, body: object = {}): Promise<boolean> {
   const answer = await post(path, body);
   if (answer.ok) {
     if (notice.value?.refused) notice.value = null;
   } else {
-    tell(`${what}: ${answer.reason}`, true);
+    tell(refusal(what, answer.reason), true);
   }
   return answer.ok;
 }
@@ -106,7 +112,7 @@ function byStream(path: string, body: object): Promise<Answer | undefined> {
 /** A request that stops something: by the stream, and over HTTP when that does not answer. */
 export async function stop(what: string, path: string, body: object = {}): Promise<boolean> {
   const answer = (await byStream(path, body)) ?? (await post(path, body));
-  if (answer.reason) tell(`${what}: ${answer.reason}`, true);
+  if (answer.reason) tell(refusal(what, answer.reason), true);
   return answer.ok;
 }
 

@@ -5,7 +5,7 @@ import { useSignal } from "@preact/signals";
 import { alarmText } from "../plc/messages";
 import { explanation } from "../state/alarms";
 import { type Channel, holdingAlarms, type RecoveryStep, recoverySteps, sortedAlarms } from "../state/model";
-import { channelList, channelName, channels, chooseChannel, commandTo, machine, request, tell } from "../state/store";
+import { channelList, channelName, channels, chooseChannel, commandTo, machine, notice, request, tell } from "../state/store";
 import { text } from "../text/texts";
 import { AlarmList } from "./Alarms";
 import { lacking } from "./Guard";
@@ -83,6 +83,20 @@ function Left({ one }: { one: Channel }) {
   );
 }
 
+/** The answer to what the operator did. The strip has a place for it, where it lies over no key. */
+function Notice() {
+  const value = notice.value;
+  return (
+    <div class="notice-place" role="status" aria-live="polite">
+      {value && (
+        <div class={`notice ${value.refused ? "refused" : ""}`} title={value.text} onClick={() => (notice.value = null)}>
+          {value.text}
+        </div>
+      )}
+    </div>
+  );
+}
+
 export function Attention() {
   const open = useSignal(false);
   const state = machine.value;
@@ -115,6 +129,7 @@ export function Attention() {
           </>
         )}
       </div>
+      <Notice />
       {steps.length > 0 ? <Recovery steps={steps} /> : left.map((one) => <Left key={one.channel} one={one} />)}
       {listed && (
         <div class="alarm-panel alarms" tabIndex={0} aria-label={t.allAlarms} role="region">
