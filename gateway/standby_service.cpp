@@ -15,6 +15,7 @@ constexpr double poll_period = 0.1;  // s
 Json comparable(Json document, bool executed) {
   document.erase("trace");
   document.erase("operating");
+  document.erase("run_times");
   if (document.contains("axes"))
     for (auto& axis : document["axes"]) {
       axis.erase("following_peak");

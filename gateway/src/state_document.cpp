@@ -62,7 +62,10 @@ void StateDocument::apply(const idl::service::Cluster& cluster) {
   has_cluster_ = true;
 }
 
-void StateDocument::apply(const idl::channel::ChannelState& state) { channels_[state.channel] = state; }
+void StateDocument::apply(const idl::channel::ChannelState& state) {
+  channels_[state.channel] = state;
+  if (has_feedback_) run_times_[state.channel].observe(state, feedback_.tick);
+}
 
 void StateDocument::apply(const idl::plc::Outputs& outputs) {
   auto channels = Json::array();
@@ -182,6 +185,17 @@ Json StateDocument::axes() {
   return json;
 }
 
+Json StateDocument::run_times() {
+  auto json = Json::object();
+  if (!has_feedback_) return json;
+  for (const auto& [number, state] : channels_) {
+    auto& time = run_times_[number];
+    time.observe(state, feedback_.tick);
+    json[std::to_string(number)] = {{"ticks", time.ticks()}, {"partial", time.partial()}};
+  }
+  return json;
+}
+
 Json StateDocument::document(double now) {
   auto json = Json::object();
   if (has_cluster_)
@@ -194,6 +208,7 @@ Json StateDocument::document(double now) {
   json["alarms"] = alarms();
   auto& channels = json["channels"] = Json::object();
   for (const auto& [number, state] : channels_) channels[std::to_string(number)] = bus::to_json(state);
+  json["run_times"] = run_times();
   json["axes"] = axes();
   if (has_feedback_)
     json["drive"] = {{"executed", feedback_.first + feedback_.count},

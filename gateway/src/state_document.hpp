@@ -9,6 +9,7 @@
 
 #include "bus/json.hpp"
 #include "contracts/types.hpp"
+#include "src/run_time.hpp"
 #include "src/trace.hpp"
 
 namespace trunnion::gateway {
@@ -58,10 +59,12 @@ class StateDocument {
   bus::Json services(double now) const;
   bus::Json alarms() const;
   bus::Json axes();
+  bus::Json run_times();
 
   std::map<std::uint32_t, Known> services_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Raised> alarms_;
   std::map<std::uint16_t, idl::channel::ChannelState> channels_;
+  std::map<std::uint16_t, RunTime> run_times_;
   idl::service::Cluster cluster_;
   bool has_cluster_ = false;
   bus::Json plc_, measurement_, revisions_ = bus::Json::object();

@@ -182,6 +182,51 @@ idl::stream::FeedbackFrame feedback() {
   return frame;
 }
 
+using idl::channel::Mode, idl::channel::RunState;
+
+/// What is shown of the run of channel 0 when the drive is at `tick` and the channel is as given.
+Json run_time_at(StateDocument& document, std::uint64_t tick, RunState state, Mode mode = Mode::AUTO,
+                 bool suspended = false) {
+  idl::stream::FeedbackFrame frame{};
+  frame.tick = tick;
+  document.apply(frame);
+  idl::channel::ChannelState one{};
+  one.state = state;
+  one.mode = mode;
+  one.suspended = suspended;
+  document.apply(one);
+  return document.document(1)["run_times"]["0"];
+}
+
+TEST(StateDocument, TheTimeOfAProgramCountsFromItsStartToItsEndWithHoldsAndMdiInBetween) {
+  StateDocument document;
+  run_time_at(document, 1000, RunState::IDLE);
+  run_time_at(document, 1100, RunState::RUNNING);
+  run_time_at(document, 1500, RunState::HELD);
+  run_time_at(document, 2000, RunState::IDLE, Mode::MDI, true);
+  auto time = run_time_at(document, 2600, RunState::RUNNING);
+  EXPECT_EQ(time["ticks"], 1500);  // 2600 - 1100
+  EXPECT_EQ(time["partial"], false);
+  EXPECT_EQ(run_time_at(document, 2700, RunState::IDLE)["ticks"], 1600);  // 2700 - 1100
+  EXPECT_EQ(run_time_at(document, 9000, RunState::IDLE)["ticks"], 1600);
+  EXPECT_EQ(run_time_at(document, 9100, RunState::RUNNING, Mode::MDI)["ticks"], 1600);
+  time = run_time_at(document, 9200, RunState::RUNNING);
+  EXPECT_EQ(time["ticks"], 0);
+  EXPECT_EQ(time["partial"], false);
+}
+
+TEST(StateDocument, AProgramThatRanAlreadyOrADriveThatCountsFromZeroAgainGivesAPartOfTheTime) {
+  StateDocument document;
+  run_time_at(document, 500, RunState::RUNNING);
+  auto time = run_time_at(document, 800, RunState::RUNNING);
+  EXPECT_EQ(time["ticks"], 300);  // 800 - 500
+  EXPECT_EQ(time["partial"], true);
+  run_time_at(document, 10, RunState::RUNNING);
+  time = run_time_at(document, 50, RunState::RUNNING);
+  EXPECT_EQ(time["ticks"], 40);  // 50 - 10
+  EXPECT_EQ(time["partial"], true);
+}
+
 TEST(StateDocument, ColumnsOfTheFeedbackGoToTheLogicalAxesOfTheDrive) {
   StateDocument document;
   document.set_drive_axes({0, 5});

@@ -326,6 +326,14 @@ export interface Revisions {
   programs?: number;
 }
 
+/** The time of the program of a channel since its start, holds included; the last one when none runs. */
+export interface RunTime {
+  /** Periods of the drive, as tick of DriveState */
+  ticks: number;
+  /** It ran before the gateway did: the time is longer */
+  partial: boolean;
+}
+
 /** The state of the cluster as the stream carries it; services by instance, channels and axes by number. */
 export interface MachineState {
   cluster?: ClusterState;
@@ -333,6 +341,8 @@ export interface MachineState {
   alarms: Record<string, Alarm>;
   channels: Record<string, ChannelState>;
   axes: Record<string, Axis>;
+  /** How long programs have run, by the number of the channel */
+  run_times?: Record<string, RunTime>;
   drive?: DriveState;
   plc?: PlcState;
   trace?: Trace;

@@ -7,7 +7,6 @@ import { refusal } from "../format";
 import { text } from "../text/texts";
 import { History } from "./history";
 import { channelNumbers, emptyStream, type Message, receive, type Stream } from "./model";
-import { RunTime } from "./run_time";
 import { Shown } from "./shown";
 
 const stream = signal<Stream>(emptyStream);
@@ -40,13 +39,6 @@ export function history(number: number): History {
   const fresh = new History();
   histories.set(number, fresh);
   return fresh;
-}
-
-const runTimes = new Map<number, RunTime>();
-export function runTime(number: number): RunTime {
-  const known = runTimes.get(number) ?? new RunTime();
-  runTimes.set(number, known);
-  return known;
 }
 
 /** The channel's name, or its number in words. */
@@ -184,7 +176,6 @@ export function connect(): void {
     connection.value = "live";
     const now = performance.now() / 1000;
     for (const one of Object.values(next.state.channels)) {
-      if (next.state.drive) runTime(one.channel).observe(one, next.state.drive.tick);
       if ("state" in message) history(one.channel).interrupt();
       history(one.channel).record(now, next.state, one);
     }

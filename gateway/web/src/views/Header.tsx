@@ -4,9 +4,7 @@
 import { duration } from "../format";
 import { cyclePeriod } from "../state/cycle_period";
 import { plan, remaining } from "../state/plan";
-import {
-  channel, channelList, channelName, channelNumber, channels, chooseChannel, connection, holdAll, machine, runTime, stop,
-} from "../state/store";
+import { channel, channelList, channelName, channelNumber, channels, chooseChannel, connection, holdAll, machine, stop } from "../state/store";
 import { text } from "../text/texts";
 import { Operator } from "./OperatingRight";
 import { onPress } from "./press";
@@ -42,10 +40,9 @@ function ChannelTabs() {
 }
 
 function Elapsed({ number }: { number: number }) {
-  void machine.value.drive?.tick;  // what is shown changes with it
-  const time = runTime(number);
+  const time = machine.value.run_times?.[String(number)];
   const period = cyclePeriod.value;
-  if (time.ticks === 0 || period === undefined) return null;
+  if (!time || time.ticks === 0 || period === undefined) return null;
   return (
     <span class="elapsed digits" title={time.partial ? text.value.elapsedPartAbout : text.value.elapsedAbout}>
       <span class="dim">{text.value.elapsed}</span>
