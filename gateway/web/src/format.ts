@@ -5,6 +5,16 @@ export function millimetres(value: number, decimals = 3): string {
   return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "\u2212");
 }
 
+/** The numbers at an axis, `step` apart: with the decimals of the step, whatever its size. */
+export function tickTexts(values: readonly number[], step: number): string[] {
+  let decimals = 0;
+  for (; decimals < 12; ++decimals) {
+    const scaled = step * 10 ** decimals;
+    if (Math.abs(scaled - Math.round(scaled)) <= 1e-6 * scaled) break;
+  }
+  return values.map((value) => millimetres(value, decimals));
+}
+
 export function whole(value: number): string {
   return Math.round(value).toString();
 }
