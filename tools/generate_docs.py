@@ -91,26 +91,27 @@ def machine_alarms():
 
 
 def translated_alarms(language, rows):
-    """Cause and remedy by number; exactly those of the alarms."""
+    """Text, cause and remedy by number; exactly those of the alarms."""
     path = f"libs/machine/translations/alarms.{language}.yaml"
     texts = yaml.safe_load(read(path))
-    wrong = set(texts) ^ {row["number"] for row in rows} | {number for number, one in texts.items() if not all(one.get(key) for key in ("cause", "remedy"))}
-    if wrong: fail(path, f"cause and remedy of these alarms are missing, or there are no such alarms: {', '.join(map(str, sorted(wrong)))}")
+    wrong = set(texts) ^ {row["number"] for row in rows} | {number for number, one in texts.items() if not all(one.get(key) for key in ("text", "cause", "remedy"))}
+    if wrong: fail(path, f"text, cause and remedy of these alarms are missing, or there are no such alarms: {', '.join(map(str, sorted(wrong)))}")
     return texts
 
 
 def alarm_catalogue():
-    """What the page shows below the text of an alarm; the NC language's alarms name cause and place in their texts."""
+    """What the page shows of an alarm beside the service's own text; the NC language's alarms name cause and place in theirs."""
     out = ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {MACHINE_ALARMS} and its translations by tools/generate_docs.py.", "",
-           "/** Usual cause of an alarm and what the operator does, by its number and the language. */",
-           "export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { cause: string; remedy: string }>>>> = {"]
+           "/** What an alarm says, its usual cause and what the operator does, by its number and the language. */",
+           "export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { text: string; cause: string; remedy: string }>>>> = {"]
     rows = machine_alarms()
     languages = {"en": {row["number"]: row for row in rows}, **{name: translated_alarms(name, rows) for name in ("zh", "de")}}
     for row in rows:
         out.append(f"  {row['number']}: {{")
         for name, texts in languages.items():
             one = texts[row["number"]]
-            out.append(f"    {name}: {{ cause: {json.dumps(one['cause'], ensure_ascii=False)}, remedy: {json.dumps(one['remedy'], ensure_ascii=False)} }},")
+            members = (f"{key}: {json.dumps(one[key], ensure_ascii=False)}" for key in ("text", "cause", "remedy"))
+            out.append(f"    {name}: {{ {', '.join(members)} }},")
         out.append("  },")
     return out + ["};"]
 

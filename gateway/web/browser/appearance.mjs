@@ -70,6 +70,14 @@ async function still(browser, url, code, { size }) {
   pretend(stream, { plc: { emergency_stop: true } });
   await page.locator("[data-test=estop-engaged]").waitFor();
   await looks("emergency stop");
+  if (code === "de") {
+    const text = "Z: following error 1.25 mm, at most 1 mm";
+    const alarm = { instance: 3, number: 111, part: 2, severity: "EMERGENCY", reaction: "AXIS_STOP", source: "drive", text, cycle: 1, occurrences: 1, since: "2000-01-01T00:00:00Z" };
+    pretend(stream, { alarms: { "3/111/2": alarm } });
+    const strip = page.locator("[data-test=attention]");
+    await strip.filter({ hasText: "Der Schleppfehler überschreitet seine Grenze" }).waitFor();
+    check(`${where}: an alarm is in the language of the page, with its numbers`, (await strip.innerText()).includes(text));
+  }
   await page.context().close();
 }
 
