@@ -103,6 +103,8 @@ void StateDocument::apply(const idl::measurement::MeasurementState& state) {
   measurement_ = bus::to_json(state);
 }
 
+void StateDocument::set_title(std::string title) { title_ = std::move(title); }
+
 void StateDocument::set_drive_axes(std::vector<std::uint16_t> axes) { drive_axes_ = std::move(axes); }
 
 void StateDocument::set_revision(const char* what, std::uint64_t revision) { revisions_[what] = revision; }
@@ -199,11 +201,9 @@ Json StateDocument::run_times() {
 Json StateDocument::document(double now) {
   auto json = Json::object();
   if (has_cluster_)
-    json["cluster"] = {{"domain", cluster_.domain},
-                       {"machine", cluster_.machine},
-                       {"ready", cluster_.ready},
-                       {"virtual_time", cluster_.virtual_time},
-                       {"lead", cluster_.lead}};
+    json["cluster"] = {
+        {"domain", cluster_.domain}, {"machine", cluster_.machine},           {"title", title_},
+        {"ready", cluster_.ready},   {"virtual_time", cluster_.virtual_time}, {"lead", cluster_.lead}};
   json["services"] = services(now);
   json["alarms"] = alarms();
   auto& channels = json["channels"] = Json::object();

@@ -104,6 +104,13 @@ TEST(StateDocument, AnAlarmKeepsTheTimeItWasFirstSeenAndGoesWhenItIsOver) {
   EXPECT_TRUE(document.document(2)["alarms"].empty());
 }
 
+TEST(StateDocument, TheClusterHasTheTitleOfTheMachine) {
+  StateDocument document;
+  document.set_title("AC trunnion machine");
+  document.apply(idl::service::Cluster{});
+  EXPECT_EQ(document.document(1)["cluster"]["title"], "AC trunnion machine");
+}
+
 TEST(StateDocument, AServiceIsSilentWithoutHeartbeatAndAbsentWhenExpectedButNeverHeard) {
   StateDocument document;
   document.apply(beat(4, 100), 10.0);

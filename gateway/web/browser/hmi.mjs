@@ -46,7 +46,9 @@ async function run(page, url) {
   const text = (selector) => page.locator(selector).first().innerText();
   const shown = (name) => page.locator(`[data-test="${name}"]`).getAttribute(`data-${name}`);
   const at = (name) => page.locator(`[data-test="${name}"]`);
-  check("the machine has a name", (await text('[data-test="machine"]')).length > 0);
+  const titled = (shown) => shown.length > 0 && (TRUNNION_URL !== undefined || shown === "Gateway test");
+  const machine = await eventually("the machine has its title", () => text('[data-test="machine"]'), titled);
+  await eventually("and the tab of the browser has it, too", () => page.title(), (title) => title === machine);
   check("and it is said that nobody needs to log in", TRUNNION_URL !== undefined || (await appears(page.getByText("no login", { exact: true }))));
   await eventually("nothing covers the page when the connection is there", async () => (await page.locator(".lost").count()) === 0);
   check("nothing covers the page when the connection is there", true);

@@ -260,7 +260,10 @@ export interface Axis {
 
 export interface ClusterState {
   domain: number;
+  /** Its name */
   machine: string;
+  /** Of the machine, for people */
+  title: string;
   ready: boolean;
   virtual_time: boolean;
   /** Cycles the channel may run ahead of the drive */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state bar over the whole width, in every view: what the channel does, and the two keys that stop. Nothing may lie
 // over it (style.css keeps it above everything else), and no content moves the keys: they have an area of fixed size.
+import { useEffect } from "preact/hooks";
 import { duration } from "../format";
 import { cyclePeriod } from "../state/cycle_period";
 import { plan, remaining } from "../state/plan";
@@ -90,13 +91,17 @@ function ClusterTag() {
 export function Header() {
   const one = channel.value;
   const cluster = machine.value.cluster;
+  const name = cluster?.title || cluster?.machine || "Trunnion";
+  useEffect(() => {
+    document.title = name;
+  }, [name]);
   const t = text.value;
   const typed = one?.mode === "MDI" && one.state !== "IDLE" && !one.suspended;
   return (
     <header aria-label={t.stateBar}>
       <div class="facts">
         <div class="machine-name">
-          <strong data-test="machine">{cluster?.machine || "Trunnion"}</strong>
+          <strong data-test="machine" title={cluster?.machine}>{name}</strong>
           <ClusterTag />
           <Operator />
           {cluster?.virtual_time && <span class="tag note">{t.virtualTime}</span>}
