@@ -123,6 +123,38 @@ async function growing(browser, url) {
   await page.context().close();
 }
 
+/** What is seen when the view is opened: at first everything, then what the operator has chosen. */
+async function standpoints(browser, url) {
+  await select(url, "nas979_cone.nc");
+  const page = await openPage(browser, url);
+  const picture = page.locator("[data-test=scene]");
+  const standpoint = () => picture.evaluate((canvas) => (canvas.dataset.standpoint ?? "").split(",").map(Number));
+  const same = (a, b) => a.length === b.length && a.every((one, i) => Math.abs(one - b[i]) < 1e-3);  // um, and pixels of a metre
+  await open(page);
+  await eventually("the programmed path is drawn", () => picture.evaluate((canvas) => Number(canvas.dataset.programmed ?? 0)), (count) => count > 100);
+  await drawn(page);
+  const first = await standpoint();
+  await look(page, "Whole");
+  check("the view opens with the whole machine and the path", same(await standpoint(), first));
+  await look(page, "Front");
+  const front = await standpoint();
+  await picture.hover();
+  await page.mouse.wheel(0, -300);
+  await eventually("the wheel zooms", standpoint, (now) => !same(now, front));
+  await drawn(page);
+  const chosen = await standpoint();
+  await page.getByRole("button", { name: "Operate", exact: true }).click();
+  await page.waitForSelector(".positions");
+  await open(page);
+  await eventually("the view is as it was left", standpoint, (now) => same(now, chosen));
+  await page.reload();
+  await page.waitForSelector(".positions");
+  await open(page);
+  await eventually("the view is as it was left before the page was loaded again", standpoint, (now) => same(now, chosen));
+  check(`the view is remembered: ${chosen}`, true);
+  await page.context().close();
+}
+
 /** Passes the stream on, and puts messages with a long path into it. */
 async function many(browser, url, rows) {
   const page = await openPage(browser, null);
@@ -164,6 +196,7 @@ async function many(browser, url, rows) {
 }
 
 export async function scene(browser, url) {
+  await standpoints(browser, url);
   await growing(browser, url);
   for (const rows of [101, 200_001]) await many(browser, url, rows);
 }
