@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state bar over the whole width, in every view: what the channel does, and the two keys that stop. Nothing may lie
-// over it (style.css keeps it above everything else), and no content moves the keys: they have an area of fixed size.
+// over it (state_bar.css keeps it above everything else), and no content moves the keys: they have an area of fixed size.
 import { useEffect } from "preact/hooks";
 import { duration } from "../format";
 import { cyclePeriod } from "../state/cycle_period";
