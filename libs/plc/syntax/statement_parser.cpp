@@ -134,8 +134,10 @@ void StatementParser::if_statement(Statement& s) {
   expect_word("END_IF", "at the end of IF");
 }
 
-// "3:", "3, 4:", "3..5:", "RED:", "Color#red:", "-1:"; an assignment has ":=" or a designator first.
+// "3:", "3, 4:", "3..5:", "RED:", "Color#red:", "-1:"; an assignment has ":=" or a designator first, another
+// statement two words that follow each other, as CASE n OF 0:
 bool StatementParser::at_case_label() const {
+  bool behind_value = false;
   for (std::size_t i = 0; i < 400; ++i) {
     const auto& token = ahead(i);
     if (token.kind == TokenKind::end) return false;
@@ -144,8 +146,11 @@ bool StatementParser::at_case_label() const {
       if (token.text != "," && token.text != ".." && token.text != "-" && token.text != "#" &&
           token.text != "+")
         return false;
-    } else if (token.kind != TokenKind::integer && token.kind != TokenKind::identifier) {
+      behind_value = false;
+    } else if (behind_value || (token.kind != TokenKind::integer && token.kind != TokenKind::identifier)) {
       return false;
+    } else {
+      behind_value = true;
     }
   }
   return false;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <random>
+#include <tuple>
 
 #include "translated.hpp"
 
@@ -34,6 +35,26 @@ TEST(Statements, CaseHasValuesRangesAndEnumeratedValues) {
   program.set("c", "blue");
   program.scan();
   EXPECT_EQ(program.get("s"), "'gb'");
+}
+
+// What begins the statements of a case is no label, though a colon follows: CASE n OF 0:
+TEST(Statements, CaseStandsDirectlyInCase) {
+  Translated program("VAR i, n, r : INT; END_VAR",
+                     "CASE i OF\n"
+                     "  0: CASE n OF 0: r := 1; 1, 2: r := 2; ELSE r := 3; END_CASE;\n"
+                     "  1: CASE -n OF -1: CASE n + i OF 2: r := 4; END_CASE; END_CASE;\n"
+                     "  ELSE CASE n OF 7: r := 5; END_CASE;\n"
+                     "END_CASE;");
+  for (const auto& [i, n, r] : {std::tuple{"0", "0", "1"},
+                                {"0", "2", "2"},
+                                {"0", "5", "3"},
+                                {"1", "1", "4"},
+                                {"2", "7", "5"},
+                                {"2", "1", "5"}}) {
+    program.set("i", i), program.set("n", n);
+    EXPECT_EQ(program.scan(), "");
+    EXPECT_EQ(program.get("r"), r) << i << " " << n;
+  }
 }
 
 TEST(Statements, LoopsCountExitAndContinue) {
