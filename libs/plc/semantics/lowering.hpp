@@ -18,7 +18,8 @@ class Lowering {
       : unit_(unit), pou_(pou), emit_(first_temporary) {}
 
   void body(const Statements& statements);
-  /// `expected`: the type that an enumerated value without its type's name may have.
+  /// `expected`: the type of what takes the value: an enumerated value without its type's name and a choice
+  /// between literals have it.
   Value expression(const Expression& e, const Type* expected = nullptr);
   /// The value as one of the type, or an error at `at`. `what` begins the message: "the value".
   Value converted(Value value, const Type& to, Position at);
@@ -45,7 +46,7 @@ class Lowering {
   Value folded(const std::string& op, const Value& left, const Value& right, const Type& type, Position at);
   Value folded_comparison(const std::string& op, const Value& left, const Value& right) const;
   Value string_comparison(const std::string& op, const Value& left, const Value& right);
-  Value power(Value left, Value right, Position at);
+  Value power(Value left, Value right, const Type* expected, Position at);
   Value operation(Op op, const Type* type, const Value& left, const Value& right, bool narrow);
   bool settle(Value& left, Value& right, const std::string& op, Position at);
   Value failed(Position at, const std::string& text);
@@ -89,10 +90,14 @@ class Lowering {
   Value converted_digits(const Value& value, const Type& to, bool from_digits, Position at);
   Value byte_order(bool reverse, const Value& value, const Expression& e);
   Value validity(bool digits, const Value& value, const Expression& e);
-  Value selection(const std::string& name, const Expression& e, std::vector<Value> values);
+  Value selection(const std::string& name, const Expression& e, std::vector<Value> values,
+                  const Type* expected);
+  const Type* selected_type(const std::string& name, std::span<const Value> values, Position at);
+  Value extreme_literal(const std::string& name, std::vector<Value> values, Position at);
   Value shift(const std::string& name, const std::vector<Value>& values, const Expression& e);
   Value string_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
-  Value math_function(MathFunction function, const std::vector<Value>& values, const Expression& e);
+  Value math_function(MathFunction function, const std::vector<Value>& values, const Expression& e,
+                      const Type* expected);
   Value test_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
   Value string_result(StringFunction function, std::span<const std::int32_t> arguments, std::uint32_t length,
                       bool wide = false);

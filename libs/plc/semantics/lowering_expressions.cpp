@@ -146,14 +146,14 @@ Value Lowering::unary(const Expression& e, const Type* expected) {
 
 Value Lowering::binary(const Expression& e, const Type* expected) {
   if (e.name == "AND" || e.name == "OR" || e.name == "XOR") return logic(e, expected);
-  auto left = expression(*e.parts[0]);
+  const bool compares = e.name.find_first_of("<>=") != std::string::npos;
+  auto left = expression(*e.parts[0], compares ? nullptr : expected);
   if (calls(*e.parts[1])) left = kept(left);
-  const bool names = !left.is_error() && left.type->kind == Kind::enumeration;
-  auto right = expression(*e.parts[1], names ? left.type : nullptr);
+  auto right = expression(*e.parts[1], compares && !left.is_error() ? left.type : expected);
   if (left.is_error() || right.is_error()) return error();
   emit_.place(e.at);
-  if (e.name == "**") return power(left, right, e.at);
-  if (e.name.find_first_of("<>=") != std::string::npos) return comparison(e.name, left, right, e.at);
+  if (e.name == "**") return power(left, right, expected, e.at);
+  if (compares) return comparison(e.name, left, right, e.at);
   return arithmetic(e.name, left, right, e.at);
 }
 
@@ -449,12 +449,13 @@ Value Lowering::string_comparison(const std::string& op, const Value& left, cons
   return comparison(op, order, constant_integer(elementary(Kind::integer_literal), 0), {});
 }
 
-Value Lowering::power(Value left, Value right, Position at) {
+Value Lowering::power(Value left, Value right, const Type* expected, Position at) {
   if (!is_number(left.type->kind) || !is_number(right.type->kind))
     return failed(at, "'**' is for numbers, not for " +
                           (is_number(left.type->kind) ? right.type->name : left.type->name));
-  // The result has the type of the base when that is REAL, otherwise LREAL.
-  const auto* type = elementary(left.type->kind == Kind::real ? Kind::real : Kind::lreal);
+  // The result has the type of the base when that is REAL, otherwise LREAL; a literal is a REAL for a REAL.
+  const bool as_expected = left.is_literal() && expected != nullptr && expected->kind == Kind::real;
+  const auto* type = elementary(left.type->kind == Kind::real || as_expected ? Kind::real : Kind::lreal);
   if (right.type->kind == Kind::lreal) type = elementary(Kind::lreal);
   const auto numeric = [&](Value v) {
     if (widens(*v.type, *type) || v.is_literal()) return converted(v, *type, at);

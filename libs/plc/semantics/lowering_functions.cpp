@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -56,6 +57,24 @@ bool in_order(const FunctionRow& row, const Expression& e, Diagnostics& diagnost
   return true;
 }
 
+Value absolute_literal(Value value) {
+  if (value.type->kind == Kind::real_literal) {
+    value.real = std::fabs(value.real);
+    if (value.text.starts_with('-')) value.text.erase(0, 1);
+  } else if (value.integer < 0 && !value.large) {
+    value.large = value.integer == std::numeric_limits<std::int64_t>::min();
+    value.integer = static_cast<std::int64_t>(0 - static_cast<std::uint64_t>(value.integer));
+  }
+  return value;
+}
+
+/// Whether the arguments have the type of the result.
+bool keeps_type(FunctionGroup group) {
+  using enum FunctionGroup;
+  return group == math || group == absolute || group == arithmetic || group == selection || group == move ||
+         group == order_of_bytes;
+}
+
 }  // namespace
 
 std::optional<Value> Lowering::standard_function(const Expression& e, const Type* expected) {
@@ -66,7 +85,8 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
   if (!in_order(*row, e, unit_.diagnostics(), ordered)) return error();
   std::vector<Value> values;
   for (std::size_t i = 0; i < ordered.size(); ++i) {
-    const Type* hint = name == "SEL" || name == "MUX" ? (i == 0 ? nullptr : expected) : expected;
+    const bool selects = i == 0 && (name == "SEL" || name == "MUX");
+    const Type* hint = selects || !keeps_type(row->group) ? nullptr : expected;
     if (i > 0 && !values.back().is_error() && values.back().type->kind == Kind::enumeration)
       hint = values.back().type;
     auto value = expression(*ordered[i], hint);
@@ -84,7 +104,8 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
     Value all;
     for (std::size_t i = 1; i < values.size(); ++i) {
       if (!compares) {
-        result = op == "**" ? power(result, values[i], e.at) : arithmetic(op, result, values[i], e.at);
+        result =
+            op == "**" ? power(result, values[i], expected, e.at) : arithmetic(op, result, values[i], e.at);
         if (result.is_error()) return result;
         continue;
       }
@@ -129,14 +150,14 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
           {"TAN", MathFunction::tan},   {"ASIN", MathFunction::asin},   {"ACOS", MathFunction::acos},
           {"ATAN", MathFunction::atan}, {"ATAN2", MathFunction::atan2}, {"FLOOR", MathFunction::floor},
           {"CEIL", MathFunction::ceil}};
-      return math_function(functions.at(row->name), values, e);
+      return math_function(functions.at(row->name), values, e, expected);
     }
     case FunctionGroup::absolute: {
       const auto kind = values[0].type->kind;
-      if (is_real(kind) || kind == Kind::real_literal) return math_function(MathFunction::abs, values, e);
-      if (values[0].is_literal() || is_duration(kind) || (is_integer(kind) && is_signed(kind))) {
-        const auto value =
-            values[0].is_literal() ? converted(values[0], *elementary(Kind::lint), e.at) : values[0];
+      if (values[0].is_literal()) return absolute_literal(values[0]);
+      if (is_real(kind)) return math_function(MathFunction::abs, values, e, expected);
+      if (is_duration(kind) || (is_integer(kind) && is_signed(kind))) {
+        const auto& value = values[0];
         const auto* type = elementary(value.type->kind);
         auto result = temporary(type);
         const auto zero = emit_.temporary(), negative = emit_.temporary();
@@ -156,7 +177,7 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
     case FunctionGroup::shift:
       return shift(name, values, e);
     case FunctionGroup::selection:
-      return selection(name, e, std::move(values));
+      return selection(name, e, std::move(values), expected);
     case FunctionGroup::string:
       return string_function(name, values, e);
     case FunctionGroup::order_of_bytes:
@@ -180,14 +201,15 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
   return error();
 }
 
-Value Lowering::math_function(MathFunction function, const std::vector<Value>& values, const Expression& e) {
-  const bool single =
-      std::all_of(values.begin(), values.end(),
-                  [](const Value& v) {
-                    return v.type->kind == Kind::real || v.is_literal() ||
-                           widens(*v.type, *elementary(Kind::real));
-                  }) &&
-      std::any_of(values.begin(), values.end(), [](const Value& v) { return !v.is_literal(); });
+Value Lowering::math_function(MathFunction function, const std::vector<Value>& values, const Expression& e,
+                              const Type* expected) {
+  const bool of_literals =
+      std::all_of(values.begin(), values.end(), [](const Value& v) { return v.is_literal(); });
+  const bool single = of_literals ? expected != nullptr && expected->kind == Kind::real
+                                  : std::all_of(values.begin(), values.end(), [](const Value& v) {
+                                      return v.type->kind == Kind::real || v.is_literal() ||
+                                             widens(*v.type, *elementary(Kind::real));
+                                    });
   const auto* type = elementary(single ? Kind::real : Kind::lreal);
   std::int32_t cells[2] = {0, 0};
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -255,84 +277,6 @@ Value Lowering::shift(const std::string& name, const std::vector<Value>& values,
                 : name == "ROL" ? Op::rotate_left
                                 : Op::rotate_right;
   emit_.add(op, result.place.offset, source, count, static_cast<std::uint16_t>(bits(kind)));
-  return result;
-}
-
-Value Lowering::selection(const std::string& name, const Expression& e, std::vector<Value> values) {
-  Value selector;
-  if (name == "SEL" || name == "MUX") {
-    selector = values[0];
-    values.erase(values.begin());
-    if (name == "SEL") selector = converted(selector, *elementary(Kind::boolean), e.at);
-    if (selector.is_error()) return selector;
-    if (name == "MUX" && !is_integer(selector.type->kind) && selector.type->kind != Kind::integer_literal)
-      return failed(e.at, "the first argument of MUX is an integer, not " + selector.type->name);
-  }
-  const auto* type = values[0].type;
-  for (const auto& value : values) {
-    if (value.is_literal() && (!values[0].is_literal() || value.type->kind == Kind::integer_literal))
-      continue;
-    if (type->kind == Kind::integer_literal || (type->kind == Kind::real_literal && !value.is_literal())) {
-      type = value.is_literal() || !is_integer(value.type->kind) ? value.type : elementary(value.type->kind);
-      continue;
-    }
-    const auto* common = value.is_literal() ? type : common_type(*type, *value.type);
-    if (common == nullptr && type->kind == Kind::string && value.type->kind == Kind::string &&
-        type->wide == value.type->wide)
-      common = type->length >= value.type->length ? type : value.type;
-    if (common == nullptr)
-      return failed(e.at, name + " needs values of one type, not " + type->name + " and " + value.type->name);
-    type = common;
-  }
-  if (type->kind == Kind::integer_literal) type = elementary(Kind::lint);
-  if (type->kind == Kind::real_literal) type = elementary(Kind::lreal);
-  const bool orders = name != "SEL" && name != "MUX";
-  if (orders && (!is_elementary(type->kind) || type->kind == Kind::enumeration))
-    return failed(e.at, name + " is for elementary values, not for " + type->name);
-  auto result = temporary(type);
-  const auto place = result.place;
-  result.place.writable = true;
-  const auto put = [&](const Value& value) { store(result, converted(value, *type, e.at)); };
-  if (!orders) {
-    const auto k = selector.is_constant ? cell(selector, *elementary(Kind::lint)) : cell(selector);
-    std::vector<std::size_t> ends;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      std::optional<std::size_t> next;
-      if (i + 1 < values.size()) {
-        const auto number = emit_.temporary(), other = emit_.temporary();
-        emit_.constant(number, i);
-        emit_.add(Op::not_equal, other, k, number);
-        next = emit_.add(Op::jump_if, 0, other);
-      }
-      put(values[i]);
-      if (next) {
-        ends.push_back(emit_.add(Op::jump));
-        emit_.jump_to_here(*next);
-      }
-    }
-    emit_.jump_to_here(ends);
-  } else if (name == "LIMIT") {
-    // As the standard defines it: MIN(MAX(IN, MN), MX).
-    put(values[1]);
-    for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
-      const auto limit = converted(values[i], *type, e.at);
-      const auto beyond = comparison(i == 0 ? "<" : ">", result, limit, e.at);
-      const auto jump = emit_.add(Op::jump_if_not, 0, cell(beyond));
-      put(limit);
-      emit_.jump_to_here(jump);
-    }
-  } else {
-    put(values[0]);
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      const auto value = converted(values[i], *type, e.at);
-      if (value.is_error()) return value;
-      const auto better = comparison(name == "MAX" ? ">" : "<", value, result, e.at);
-      const auto jump = emit_.add(Op::jump_if_not, 0, cell(better));
-      put(value);
-      emit_.jump_to_here(jump);
-    }
-  }
-  result.place = place;
   return result;
 }
 

@@ -248,18 +248,60 @@ const Row rows[] = {
     {"DATE", "LDT_TO_DATE(LDT#2024-02-29-13:00:00)", "D#2024-02-29"},
 };
 
+// Literals of whole numbers are ANY_INT, those with a point ANY_REAL (IEC 61131-3:2013, table 5): a function of
+// literals only takes the type of what takes its value.
+const Row literal_rows[] = {
+    {"INT", "SEL(b15 = BYTE#15, 3, 4)", "4"},
+    {"INT", "MUX(i0, 3, 4)", "3"},
+    {"INT", "ABS(-5)", "5"},
+    {"INT", "MAX(1, 3, 2)", "3"},
+    {"INT", "MIN(3, 1, 2)", "1"},
+    {"INT", "LIMIT(0, 5, 3)", "3"},
+    {"USINT", "SEL(i0 = 0, 3, 255)", "255"},
+    {"WORD", "SEL(i0 = 0, 16#1, 16#FFFF)", "65535"},
+    {"ULINT", "MAX(18446744073709551615, 1)", "18446744073709551615"},
+    {"ULINT", "ABS(-9223372036854775808)", "9223372036854775808"},
+    {"INT", "i0 + SEL(i0 = 0, 3, 4) * 2", "8"},
+    {"INT", "-SEL(i0 = 0, 3, 4)", "-4"},
+    {"REAL", "SEL(i0 = 0, 3, 4)", "4.0"},
+    {"REAL", "MUX(i0, 1.5, 2)", "1.5"},
+    {"REAL", "ABS(-1.5)", "1.5"},
+    {"REAL", "ABS(-0.1)", "0.1"},
+    {"REAL", "MAX(1, 2.5)", "2.5"},
+    {"REAL", "MAX(3, 2.5)", "3.0"},
+    {"REAL", "LIMIT(0, 0.5, 1)", "0.5"},
+    {"REAL", "SQRT(2.25)", "1.5"},
+    {"REAL", "SQRT(4)", "2.0"},
+    {"REAL", "f0 + SQRT(2.25) * 2.0", "3.0"},
+    {"REAL", "2.0 ** 3", "8.0"},
+    {"REAL", "EXPT(2.0, 3)", "8.0"},
+    {"LREAL", "SQRT(2.25)", "1.5"},
+    {"LREAL", "SEL(i0 = 0, 1.5, 2)", "2.0"},
+    {"DINT", "SEL(i0 = 0, 3, 2147483647)", "2147483647"},
+    {"BOOL", "f0 < SQRT(2.25)", "TRUE"},
+    {"BOOL", "u1 = SEL(i0 = 0, 0, 1)", "TRUE"},
+    {"BOOL", "GT(SEL(i0 = 0, 3, 4), 3)", "TRUE"},
+    {"BYTE", "SHL(b15, SEL(i0 = 0, 0, 1))", "30"},
+};
+
 constexpr const char* function_variables =
     "VAR i0 : INT; s127 : SINT := 127; u1 : USINT := 1; ul1 : ULINT := 1; b15 : BYTE := 15; d200 : DINT := "
     "200; f0 : REAL; l0 : LREAL;";
 
+void expect_value(const Row& row) {
+  SCOPED_TRACE(row.expression);
+  Translated program(std::string(function_variables) + " result : " + row.type + "; END_VAR",
+                     std::string("result := ") + row.expression + ";");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("result"), row.expected);
+}
+
 TEST(StandardFunctions, GiveTheValuesOfTheirDefinition) {
-  for (const auto& row : rows) {
-    SCOPED_TRACE(row.expression);
-    Translated program(std::string(function_variables) + " result : " + row.type + "; END_VAR",
-                       std::string("result := ") + row.expression + ";");
-    EXPECT_EQ(program.scan(), "");
-    EXPECT_EQ(program.get("result"), row.expected);
-  }
+  for (const auto& row : rows) expect_value(row);
+}
+
+TEST(StandardFunctions, OfLiteralsFitTheTypeThatTakesTheirValue) {
+  for (const auto& row : literal_rows) expect_value(row);
 }
 
 // Constants are folded by the translator: the same expression of variables is computed by the
