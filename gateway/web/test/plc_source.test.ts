@@ -2,7 +2,7 @@
 import { expect, test } from "vitest";
 import { declared, devices, inputBits, Paths, sourceLines } from "../src/plc/source";
 
-const source = `(* main task
+const source = `(* main task (* or another *)
    of two lines: ignored *)
 PROGRAM main
 VAR code AT %W1 : UINT; changer : TON; END_VAR

@@ -49,7 +49,7 @@ class Lexer {
       } else if (c == '/' && at(1) == '/') {
         while (i_ < source_.size() && at() != '\n') ++i_;
       } else if ((c == '(' && at(1) == '*') || (c == '/' && at(1) == '*')) {
-        comment(c == '(' ? ')' : '/');
+        comment(c, c == '(' ? ')' : '/');
       } else {
         return true;
       }
@@ -57,15 +57,29 @@ class Lexer {
     return false;
   }
 
-  void comment(char last) {
-    const auto start = here();
-    i_ += 2;
-    while (i_ < source_.size() && !(at() == '*' && at(1) == last)) step();
-    if (i_ >= source_.size()) {
-      diagnostics_.error(start, std::string("the comment is not closed: write *") + last + " behind it");
-      return;
-    }
-    i_ += 2;
+  /// Comments of one kind nest (IEC 61131-3:2013, table 3).
+  void comment(char first, char last) {
+    std::vector<Position> open;
+    do {
+      if (at() == first && at(1) == '*') {
+        open.push_back(here());
+        i_ += 2;
+      } else if (at() == '*' && at(1) == last) {
+        open.pop_back();
+        i_ += 2;
+      } else {
+        step();
+      }
+    } while (!open.empty() && i_ < source_.size());
+    if (open.empty()) return;
+    diagnostics_.error(open.front(), std::string("the comment is not closed: write *") + last + " behind it" +
+                                         (open.size() == 1 ? "" : inner_comments(open)));
+  }
+
+  static std::string inner_comments(const std::vector<Position>& open) {
+    const auto& at = open[1];
+    return ", or behind the one that begins in it at " + std::to_string(at.line) + ":" +
+           std::to_string(at.column);
   }
 
   void word() {

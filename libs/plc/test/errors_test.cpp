@@ -125,6 +125,8 @@ const Wrong programs[] = {
     {true, "s := '$Q';", "3:7: error: '$' begins $$, $', $\", $L, $N, $P, $R, $T or two hexadecimal digits"},
     {true, "i := @;", "3:6: error: unexpected character '@'"},
     {true, "(* never", "3:1: error: the comment is not closed: write *) behind it"},
+    {true, "d := 1; (* outer (* inner *)",
+     "3:9: error: the comment is not closed: write *) behind it, or behind the one that begins in it at 3:18"},
     {true, "b := w.%X16;", "3:8: error: %X16 is outside WORD, which has the parts 0 .. 15 of this size"},
     {true, "b := i.%X0;", "3:8: error: a part is of BYTE, WORD, DWORD or LWORD, not of INT"},
     {true, "b := %X0.8;", "3:6: error: '%X0.8': the bit is outside 0 .. 7"},

@@ -178,6 +178,16 @@ TEST(Types, LiteralsOfEveryKind) {
     EXPECT_EQ(program.get(name), value) << name;
 }
 
+// Comments of one kind nest, the other kind and // mean nothing in them (IEC 61131-3:2013, table 3).
+TEST(Comments, Nest) {
+  Translated program("VAR a, b, c, d, e : INT; END_VAR",
+                     "a := 1; (* b := 1; (* c := 1; (**) *) d := 1; // *) b := 2;\n"
+                     "/* c := 1; /* d := 1; (* */ e := 1;\n */ c := 3; (*/* *) d := 4; /*(* */ e := 5;");
+  EXPECT_EQ(program.scan(), "");
+  for (const auto& [name, value] : {std::pair{"a", "1"}, {"b", "2"}, {"c", "3"}, {"d", "4"}, {"e", "5"}})
+    EXPECT_EQ(program.get(name), value) << name;
+}
+
 TEST(Registers, AreReadAndWrittenWithTheirWidth) {
   Translated program(
       "VAR lamp AT %Y3.1 : BOOL; word AT %G300 : INT; raw AT %G300 : WORD; kept AT %B7 : DINT; own AT %D4 : "

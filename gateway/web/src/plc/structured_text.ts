@@ -18,16 +18,18 @@ const types = words(`BOOL SINT INT DINT LINT USINT UINT UDINT ULINT REAL LREAL B
 const blocks = words("SR RS R_TRIG F_TRIG CTU CTD CTUD TP TON TOF RTC PID PID_CONTROL SFC_STEP");
 
 export interface State {
-  /** What ends the comment that is open; empty outside. */
-  comment: "" | "*)" | "*/";
+  /** What ends the comments that are open, the same for all of them as comments of one kind nest; empty outside. */
+  comment: string;
 }
 
 /** The kind of the next piece of a line; null for what has no colour. */
-export function token(stream: Pick<StringStream, "match" | "skipTo" | "skipToEnd" | "next" | "eatSpace" | "string" | "pos">, state: State, list: boolean): string | null {
+export function token(stream: Pick<StringStream, "match" | "skipToEnd" | "next" | "eatSpace" | "string" | "pos">, state: State, list: boolean): string | null {
   if (state.comment) {
-    if (stream.skipTo(state.comment)) {
-      stream.match(state.comment);
-      state.comment = "";
+    const end = state.comment.slice(0, 2);
+    const mark = (end === "*)" ? /\(\*|\*\)/ : /\/\*|\*\//).exec(stream.string.slice(stream.pos));
+    if (mark) {
+      stream.pos += mark.index + 2;
+      state.comment = mark[0] === end ? state.comment.slice(2) : state.comment + end;
     } else {
       stream.skipToEnd();
     }
