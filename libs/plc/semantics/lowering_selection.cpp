@@ -81,8 +81,9 @@ Value Lowering::selection(const std::string& name, const Expression& e, std::vec
   const auto* type = selected_type(name, values, e.at);
   if (type == nullptr) return error();
   if (of_literals) type = literal_type(*type, values, expected);
-  if (orders && (!is_elementary(type->kind) || type->kind == Kind::enumeration))
-    return failed(e.at, name + " is for elementary values, not for " + type->name);
+  const bool ordered =
+      (is_elementary(type->kind) && type->kind != Kind::enumeration) || type->kind == Kind::string;
+  if (orders && !ordered) return failed(e.at, name + " is for elementary values, not for " + type->name);
   auto result = temporary(type);
   const auto place = result.place;
   result.place.writable = true;
