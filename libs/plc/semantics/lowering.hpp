@@ -38,6 +38,7 @@ class Lowering {
   Value part(const Expression& e);
   Value index(const Expression& e);
   Value unary(const Expression& e, const Type* expected);
+  Value inverted(const Value& value, Position at);
   Value binary(const Expression& e, const Type* expected);
   Value logic(const Expression& e, const Type* expected);
   Value arithmetic(const std::string& op, Value left, Value right, Position at);
@@ -81,6 +82,7 @@ class Lowering {
   void call_program(Pou& program, const Expression& e);
   bool bind(const Pou& pou, const Expression& e, bool is_block, std::vector<const Argument*>& bound);
   std::int32_t reference(const Argument& argument, const Variable& parameter);
+  void give_output(const Argument& argument, const Value& output);
   std::optional<Value> standard_function(const Expression& e, const Type* expected);
   std::optional<Value> ladder_function(const Expression& e);
   Value move_converted(const Expression& to, const Value& value);

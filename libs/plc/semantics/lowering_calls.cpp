@@ -143,6 +143,16 @@ std::int32_t Lowering::reference(const Argument& argument, const Variable& param
   return address(value.place);
 }
 
+/// To the variable behind =>, inverted with NOT before the output's name.
+void Lowering::give_output(const Argument& argument, const Value& output) {
+  const auto at = argument.value->at;
+  const auto target = this->target(*argument.value);
+  if (!check_writable(target, at)) return;
+  note(*argument.value, target, writing());
+  const auto value = argument.inverted ? inverted(output, argument.at) : output;
+  store(target, converted(value, *target.type, at));
+}
+
 Value Lowering::call_function(Pou& function, const Expression& e) {
   std::vector<const Argument*> bound;
   const bool good = bind(function, e, false, bound);
@@ -220,13 +230,10 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
     if (!is_parameter(variable, function)) continue;
     const auto* argument = bound[i++];
     if (argument == nullptr || variable.section != VariableSection::output) continue;
-    const auto target = this->target(*argument->value);
-    if (!check_writable(target, argument->value->at)) continue;
-    note(*argument->value, target, writing());
     Value output;
     output.type = variable.type;
     output.place = {Place::Base::absolute, base + variable.place.offset, 0, -1, 0, 0, false, ""};
-    store(target, converted(output, *target.type, argument->value->at));
+    give_output(*argument, output);
   }
   if (function.result == nullptr) {
     Value none;
@@ -278,10 +285,7 @@ void Lowering::call_block(const Value& instance, const Expression& e) {
     if (!is_parameter(variable, pou)) continue;
     const auto* argument = bound[i++];
     if (argument == nullptr || variable.section != VariableSection::output) continue;
-    const auto target = this->target(*argument->value);
-    if (!check_writable(target, argument->value->at)) continue;
-    note(*argument->value, target, writing());
-    store(target, converted(place_of(variable), *target.type, argument->value->at));
+    give_output(*argument, place_of(variable));
   }
 }
 

@@ -92,24 +92,27 @@ Value Lowering::expression(const Expression& e, const Type* expected) {
   return error();
 }
 
+Value Lowering::inverted(const Value& value, Position at) {
+  const auto kind = value.type->kind;
+  if (kind == Kind::integer_literal) return failed(at, "NOT needs a typed literal, as WORD#16#FF");
+  if (!is_bits(kind)) return failed(at, "NOT is for BOOL and bit strings, not for " + value.type->name);
+  const auto* type = elementary(kind);
+  if (value.is_constant)
+    return constant_integer(type, static_cast<std::int64_t>(narrowed(
+                                      ~static_cast<std::uint64_t>(value.integer), cell_form(kind))));
+  const auto source = cell(value);
+  auto result = temporary(type);
+  emit_.add(kind == Kind::boolean ? Op::not_ : Op::invert, result.place.offset, source);
+  if (kind != Kind::boolean && kind != Kind::lword)
+    emit_.add(Op::narrow, result.place.offset, result.place.offset, 0, cell_form(kind));
+  return result;
+}
+
 Value Lowering::unary(const Expression& e, const Type* expected) {
   auto value = expression(*e.parts[0], expected);
   if (value.is_error()) return value;
   const auto kind = value.type->kind;
-  if (e.name == "NOT") {
-    if (kind == Kind::integer_literal) return failed(e.at, "NOT needs a typed literal, as WORD#16#FF");
-    if (!is_bits(kind)) return failed(e.at, "NOT is for BOOL and bit strings, not for " + value.type->name);
-    const auto* type = elementary(kind);
-    if (value.is_constant)
-      return constant_integer(type, static_cast<std::int64_t>(narrowed(
-                                        ~static_cast<std::uint64_t>(value.integer), cell_form(kind))));
-    const auto source = cell(value);
-    auto result = temporary(type);
-    emit_.add(kind == Kind::boolean ? Op::not_ : Op::invert, result.place.offset, source);
-    if (kind != Kind::boolean && kind != Kind::lword)
-      emit_.add(Op::narrow, result.place.offset, result.place.offset, 0, cell_form(kind));
-    return result;
-  }
+  if (e.name == "NOT") return inverted(value, e.at);
   if (!is_number(kind) && !is_duration(kind))
     return failed(e.at, "'-' is for numbers and times, not for " + value.type->name);
   if (value.is_constant) {

@@ -17,7 +17,8 @@ using ExpressionPtr = std::unique_ptr<Expression>;
 struct Argument {
   std::string name;  ///< of the parameter, in capitals; empty: by position
   Position at;
-  bool output = false;  ///< name => variable
+  bool output = false;    ///< name => variable
+  bool inverted = false;  ///< NOT name => variable
   ExpressionPtr value;
 };
 

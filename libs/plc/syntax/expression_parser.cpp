@@ -241,6 +241,9 @@ std::vector<Argument> ExpressionParser::arguments() {
   do {
     Argument argument;
     argument.at = now().at;
+    argument.inverted = is_word("NOT") && ahead().kind == TokenKind::identifier &&
+                        ahead(2).kind == TokenKind::symbol && ahead(2).text == "=>";
+    if (argument.inverted) take();
     const bool named = now().kind == TokenKind::identifier && ahead().kind == TokenKind::symbol &&
                        (ahead().text == ":=" || ahead().text == "=>");
     if (named) {

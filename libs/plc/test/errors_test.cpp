@@ -89,6 +89,8 @@ const Wrong programs[] = {
     {true, "ton1.M := TRUE;", "3:6: error: 'M' is inside TON; only its inputs and outputs are accessible"},
     {true, "ton1(IN := 1 + 1);", "3:14: error: BOOL is TRUE or FALSE, not 2"},
     {true, "ton1(XX := TRUE);", "3:6: error: 'TON' has no parameter 'XX'"},
+    {true, "ton1(NOT ET => t);", "3:6: error: NOT is for BOOL and bit strings, not for TIME"},
+    {true, "ton1(NOT IN => b);", "3:6: error: 'IN' is an input: write := value"},
     {true, "ton1(IN => b);", "3:6: error: 'IN' is an input: write := value"},
     {true, "ton1(Q := b);", "3:6: error: 'Q' is an output: write => variable"},
     {true, "ton1 := ton1;", "3:1: error: a function block cannot be assigned to; set its inputs"},

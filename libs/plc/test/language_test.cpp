@@ -275,6 +275,21 @@ TEST(Units, FunctionsBeginWithTheirInitialValuesAndHaveOutputs) {
   EXPECT_EQ(program.get("s"), "5");
 }
 
+TEST(Units, OutputsAreGivenInverted) {
+  Translated program(
+      "VAR off, same : BOOL; w : WORD; t : TON; list : ARRAY[0..1] OF BOOL; END_VAR",
+      "both(a := TRUE, NOT q => off, NOT w => w); both(a := TRUE, q => same);\n"
+      "t(IN := TRUE, PT := T#1s, NOT Q => list[1]);",
+      "FUNCTION both VAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL := FALSE; w : WORD; END_VAR\n"
+      "q := a; w := 16#00F0; END_FUNCTION\n");
+  program.set("off", "TRUE");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("off"), "FALSE");
+  EXPECT_EQ(program.get("same"), "TRUE");
+  EXPECT_EQ(program.get("w"), "65295");  // 16#FF0F
+  EXPECT_EQ(program.get("list"), "[FALSE, TRUE]");
+}
+
 TEST(Units, InOutIsTheCallersVariable) {
   const std::string before =
       "FUNCTION swap\nVAR_IN_OUT a, b : INT; END_VAR\nVAR t : INT; END_VAR\nt := a; a := b; b := "
