@@ -91,11 +91,16 @@ struct Statement {
 struct TypeSpec;
 using TypeSpecPtr = std::unique_ptr<TypeSpec>;
 
+/// R_EDGE, F_EDGE: in the body the input is TRUE at a rising, falling edge only.
+enum class InputEdge { none, rising, falling };
+
 struct VariableDeclaration {
   std::string name, text;  ///< in capitals, as written
   Position at;
   std::string location;  ///< of AT, without percent sign
   Position location_at;
+  InputEdge edge = InputEdge::none;
+  Position edge_at;
   TypeSpec* type = nullptr;  ///< shared by the names of one list
   Expression* initial = nullptr;
 };

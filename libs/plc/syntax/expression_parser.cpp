@@ -21,6 +21,13 @@ ExpressionPtr ExpressionParser::make(Expression::Kind kind, Position at) const {
   return result;
 }
 
+ExpressionPtr ExpressionParser::make_name(const std::string& text, Position at) const {
+  auto result = make(Expression::Kind::name, at);
+  result->text = text;
+  result->name = upper_case(text);
+  return result;
+}
+
 ExpressionPtr ExpressionParser::expression(int precedence) {
   const Depth depth(*this);
   auto left = unary();
@@ -193,9 +200,14 @@ ExpressionPtr ExpressionParser::designator() {
     node->text = "%" + token.text;
   } else {
     const auto token = expect_name("a variable");
-    node = make(Expression::Kind::name, token.at);
-    node->name = token.upper;
-    node->text = token.text;
+    const auto edge = edges_.find(token.upper);
+    node = make_name(edge == edges_.end() ? token.text : edge->second, token.at);
+    if (edge != edges_.end()) {
+      auto output = make(Expression::Kind::member, token.at);
+      output->name = output->text = "Q";
+      output->parts.push_back(std::move(node));
+      node = std::move(output);
+    }
   }
   for (std::size_t levels = 0;; ++levels) {
     if (levels > 200) fail("fewer members");

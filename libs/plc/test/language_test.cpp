@@ -324,6 +324,31 @@ TEST(Units, BlocksKeepTheirStateAndNest) {
   EXPECT_EQ(program.get("c.n"), "3");
 }
 
+// The input is that of an R_TRIG or F_TRIG in the body; outside it is what the call has given.
+TEST(Units, InputsDetectEdges) {
+  Translated program("VAR x, given : BOOL; b : Count; n, m, both : INT; END_VAR",
+                     "b(up := x, down := x, n => n); b(m => m, both => both); given := b.up;",
+                     "FUNCTION_BLOCK Count\n"
+                     "VAR_INPUT up : BOOL R_EDGE; down : BOOL F_EDGE; END_VAR\n"
+                     "VAR_OUTPUT n, m, both : INT; END_VAR\n"
+                     "VAR up_rising : INT; END_VAR\n"
+                     "IF up THEN n := n + 1; up_rising := n; END_IF; IF down THEN m := m + 1; END_IF;\n"
+                     "IF up OR down THEN both := up_rising * 10 + m; END_IF;\n"
+                     "END_FUNCTION_BLOCK\n");
+  // Two calls in each scan: the second one has the input of the first, so no edge. F_TRIG has one at its
+  // first call.
+  std::string up, down;
+  for (const char c : std::string("0110100")) {
+    program.set("x", std::string(1, c));
+    EXPECT_EQ(program.scan(), "");
+    up += program.get("n") + " ", down += program.get("m") + " ";
+    EXPECT_EQ(program.get("given"), c == '1' ? "TRUE" : "FALSE");
+  }
+  EXPECT_EQ(up, "0 1 1 1 2 2 2 ");
+  EXPECT_EQ(down, "1 1 1 2 2 3 3 ");
+  EXPECT_EQ(program.get("both"), "23");
+}
+
 TEST(Units, GlobalsAreSharedDirectlyAndByExternal) {
   Translated program(
       "VAR_GLOBAL total : INT := 5; END_VAR\nVAR_GLOBAL CONSTANT size : INT := 3; END_VAR\n"
