@@ -54,6 +54,8 @@ class Lowering {
   Value error() const { return {elementary(Kind::error), false, 0, false, 0, "", {}, nullptr}; }
   Value temporary(const Type* type);
   Value kept(Value value);
+  Value own_copy(const Value& value, const Type* expected, Position at);
+  void initial_at(std::size_t jump, const Value& value);
   Value variable_value(Variable& variable);
 
   // places
@@ -77,6 +79,10 @@ class Lowering {
 
   // calls
   Value call(const Expression& e, const Type* expected);
+  Value enabled_call(const Expression& e, const Type* expected);
+  Value plain_call(const Expression& e, const Type* expected);
+  const Type* instance_type(const Expression& e) const;
+  bool has_own_control(const Expression& callee) const;
   Value call_function(Pou& function, const Expression& e);
   void call_block(const Value& instance, const Expression& e);
   void call_program(Pou& program, const Expression& e);

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls of functions, function blocks and programs.
+#include <algorithm>
+#include <optional>
+#include <vector>
+
 #include "plc/library/functions.hpp"
 #include "plc/semantics/lowering.hpp"
 
@@ -18,9 +22,83 @@ const char* section_name(VariableSection section) {
                                               : "VAR_IN_OUT";
 }
 
+bool declares_control(const PouDeclaration& pou) {
+  return std::any_of(pou.blocks.begin(), pou.blocks.end(), [](const VariableBlock& block) {
+    return (block.section == VariableSection::input || block.section == VariableSection::output) &&
+           std::any_of(block.variables.begin(), block.variables.end(),
+                       [](const VariableDeclaration& v) { return v.name == "EN" || v.name == "ENO"; });
+  });
+}
+
 }  // namespace
 
+/// Of an instance before its value is known; nullptr when there is none.
+const Type* Lowering::instance_type(const Expression& e) const {
+  if (e.kind == Expression::Kind::name) {
+    const Variable* variable = unit_.find_global(e.name);
+    if (pou_ != nullptr)
+      if (const auto found = pou_->names.find(e.name); found != pou_->names.end()) variable = found->second;
+    return variable == nullptr ? nullptr : variable->type;
+  }
+  if (e.kind != Expression::Kind::index && e.kind != Expression::Kind::member) return nullptr;
+  const auto* owner = instance_type(*e.parts[0]);
+  if (owner == nullptr) return nullptr;
+  if (e.kind == Expression::Kind::index) return owner->kind == Kind::array ? owner->element : nullptr;
+  if (owner->kind == Kind::structure) {
+    const auto* field = owner->field(e.name);
+    return field == nullptr ? nullptr : field->type;
+  }
+  if (owner->kind != Kind::block) return nullptr;
+  const auto& names = owner->block->pou->names;
+  const auto found = names.find(e.name);
+  return found == names.end() ? nullptr : found->second->type;
+}
+
+/// EN and ENO of units that declare them are parameters like others.
+bool Lowering::has_own_control(const Expression& callee) const {
+  if (const auto* type = instance_type(callee); type != nullptr && type->kind == Kind::block)
+    return declares_control(*type->block->pou->declaration);
+  if (callee.kind != Expression::Kind::name) return false;
+  const auto* pou = unit_.find_pou(callee.name);
+  return pou != nullptr && declares_control(*pou->declaration);
+}
+
 Value Lowering::call(const Expression& e, const Type* expected) {
+  return e.control.empty() || has_own_control(*e.parts[0]) ? plain_call(e, expected)
+                                                           : enabled_call(e, expected);
+}
+
+/// Without EN nothing of the call is executed, not its arguments either; the result is the initial value of
+/// its type. ENO is EN.
+Value Lowering::enabled_call(const Expression& e, const Type* expected) {
+  const Argument *enable = nullptr, *done = nullptr;
+  for (const auto& argument : e.control) {
+    auto& given = argument.output ? done : enable;
+    if (given != nullptr)
+      return failed(argument.at, argument.output ? "ENO has two variables" : "EN has two values");
+    given = &argument;
+  }
+  const auto executed = temporary(elementary(Kind::boolean));
+  std::optional<std::size_t> skip;
+  if (enable == nullptr) {
+    emit_.constant(executed.place.offset, 1);
+  } else {
+    emit_.add(Op::move, executed.place.offset, condition(*enable->value, "EN"));
+    skip = emit_.add(Op::jump_if_not, 0, executed.place.offset);
+  }
+  auto result = plain_call(e, expected);
+  if (result.is_error()) return result;
+  if (skip && result.type->kind == Kind::none) {
+    emit_.jump_to_here(*skip);
+  } else if (skip) {
+    result = own_copy(result, expected, e.at);
+    initial_at(*skip, result);
+  }
+  if (done != nullptr) give_output(*done, executed);
+  return result;
+}
+
+Value Lowering::plain_call(const Expression& e, const Type* expected) {
   const auto& callee = *e.parts[0];
   Value none;
   none.type = elementary(Kind::none);
@@ -83,7 +161,12 @@ bool Lowering::bind(const Pou& pou, const Expression& e, bool is_block, std::vec
     good = false;
   };
   const auto& name = pou.declaration->text;
-  for (const auto& argument : e.arguments) {
+  std::vector<const Argument*> given;
+  for (const auto& argument : e.arguments) given.push_back(&argument);
+  if (declares_control(*pou.declaration))
+    for (const auto& argument : e.control) given.push_back(&argument);
+  for (const auto* one : given) {
+    const auto& argument = *one;
     std::size_t index = 0;
     if (argument.name.empty()) {
       while (next < parameters.size() && parameters[next]->section == VariableSection::output) ++next;

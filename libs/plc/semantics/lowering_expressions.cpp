@@ -98,8 +98,8 @@ Value Lowering::inverted(const Value& value, Position at) {
   if (!is_bits(kind)) return failed(at, "NOT is for BOOL and bit strings, not for " + value.type->name);
   const auto* type = elementary(kind);
   if (value.is_constant)
-    return constant_integer(type, static_cast<std::int64_t>(narrowed(
-                                      ~static_cast<std::uint64_t>(value.integer), cell_form(kind))));
+    return constant_integer(type, static_cast<std::int64_t>(
+                                      narrowed(~static_cast<std::uint64_t>(value.integer), cell_form(kind))));
   const auto source = cell(value);
   auto result = temporary(type);
   emit_.add(kind == Kind::boolean ? Op::not_ : Op::invert, result.place.offset, source);

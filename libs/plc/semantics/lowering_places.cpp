@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "plc/machine/arithmetic.hpp"
 #include "plc/machine/strings.hpp"
@@ -65,6 +66,27 @@ Value Lowering::kept(Value value) {
   auto copy = temporary(value.type);
   emit_.add(Op::move, copy.place.offset, cell(value));
   return copy;
+}
+
+/// A copy in cells of its own; a literal becomes one of the type that takes it.
+Value Lowering::own_copy(const Value& value, const Type* expected, Position at) {
+  const auto* type = value.is_literal()
+                         ? literal_type(*value.type, std::span<const Value>(&value, 1), expected)
+                         : value.type;
+  auto result = temporary(type);
+  result.place.writable = true;
+  store(result, converted(value, *type, at));
+  result.place.writable = false;
+  return result;
+}
+
+/// Behind the instructions that store the value: where the jump leads, it is the initial one of its type.
+void Lowering::initial_at(std::size_t jump, const Value& value) {
+  const auto end = emit_.add(Op::jump);
+  emit_.jump_to_here(jump);
+  for (std::uint32_t i = 0; i < value.type->cells; ++i)
+    emit_.constant(value.place.offset + static_cast<std::int32_t>(i), value.type->initial[i]);
+  emit_.jump_to_here(end);
 }
 
 Place Lowering::moved(Place place, std::int32_t cells) const {

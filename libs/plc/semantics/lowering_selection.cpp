@@ -7,10 +7,7 @@
 #include "plc/semantics/lowering.hpp"
 
 namespace trunnion::st {
-namespace {
 
-/// The type of literals that only the machine chooses between: that of what takes the value if it has all of
-/// them.
 const Type* literal_type(const Type& type, std::span<const Value> values, const Type* expected) {
   const bool whole = type.kind == Kind::integer_literal;
   const auto* wide = elementary(whole ? Kind::lint : Kind::lreal);
@@ -23,8 +20,6 @@ const Type* literal_type(const Type& type, std::span<const Value> values, const 
                                    [&](const Value& v) { return fits(*plain, v.integer, v.large); });
   return has_all ? plain : wide;
 }
-
-}  // namespace
 
 /// MAX, MIN and LIMIT of literals are literals. Only of numbers.
 Value Lowering::extreme_literal(const std::string& name, std::vector<Value> values, Position at) {

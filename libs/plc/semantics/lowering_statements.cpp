@@ -98,19 +98,8 @@ void Lowering::define(const Statement& s) {
     return;
   }
   if (value.is_constant && !skip) return;
-  auto type = value.type;
-  if (type->kind == Kind::integer_literal) type = elementary(Kind::lint);
-  if (type->kind == Kind::real_literal) type = elementary(Kind::lreal);
-  result = temporary(type);
-  result.place.writable = true;
-  store(result, converted(value, *type, s.value->at));
-  result.place.writable = false;
-  if (!skip) return;
-  const auto end = emit_.add(Op::jump);
-  emit_.jump_to_here(*skip);
-  for (std::uint32_t i = 0; i < type->cells; ++i)
-    emit_.constant(result.place.offset + static_cast<std::int32_t>(i), type->initial[i]);
-  emit_.jump_to_here(end);
+  result = own_copy(value, nullptr, s.value->at);
+  if (skip) initial_at(*skip, result);
 }
 
 void Lowering::label(const Statement& s) {

@@ -49,6 +49,7 @@ struct Expression {
   std::vector<ExpressionPtr> parts;
   std::vector<ExpressionPtr> repeat;  ///< of lists: count of each part or nothing
   std::vector<Argument> arguments;
+  std::vector<Argument> control;  ///< of a call: EN := value, ENO => variable
 };
 
 struct Statement;

@@ -237,7 +237,10 @@ ExpressionPtr ExpressionParser::designator() {
       node = std::move(index);
     } else if (is_symbol("(")) {
       auto call = make(Expression::Kind::call, node->at);
-      call->arguments = arguments();
+      for (auto& argument : arguments()) {
+        const bool controls = argument.name == (argument.output ? "ENO" : "EN");
+        (controls ? call->control : call->arguments).push_back(std::move(argument));
+      }
       call->parts.push_back(std::move(node));
       node = std::move(call);
     } else {

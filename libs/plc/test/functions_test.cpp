@@ -254,8 +254,8 @@ const Row rows[] = {
     {"DATE", "LDT_TO_DATE(LDT#2024-02-29-13:00:00)", "D#2024-02-29"},
 };
 
-// Literals of whole numbers are ANY_INT, those with a point ANY_REAL (IEC 61131-3:2013, table 5): a function of
-// literals only takes the type of what takes its value.
+// Literals of whole numbers are ANY_INT, those with a point ANY_REAL (IEC 61131-3:2013, table 5): a function
+// of literals only takes the type of what takes its value.
 const Row literal_rows[] = {
     {"INT", "SEL(b15 = BYTE#15, 3, 4)", "4"},
     {"INT", "MUX(i0, 3, 4)", "3"},

@@ -324,6 +324,46 @@ TEST(Units, BlocksKeepTheirStateAndNest) {
   EXPECT_EQ(program.get("c.n"), "3");
 }
 
+// What EN switches off leaves its outputs and everything that it would change.
+TEST(Units, AreExecutedWithEnOnly) {
+  Translated program(
+      "VAR on, ok, done, off, ready : BOOL; i, r, s, k : INT; m : REAL; text : STRING;\n"
+      "a : ARRAY[0..3] OF INT; t : TON; blocks : ARRAY[0..1] OF Count; n : INT; END_VAR",
+      "r := raised(EN := on, v := 4, out => k, ENO => ok); s := ADD(EN := on, 1, 2) + 10;\n"
+      "m := SEL(ENO => done, EN := on, G := on, IN0 := 3, IN1 := 4);\n"
+      "text := CONCAT('a', LEFT(EN := on, 'bc', 1));\n"
+      "t(EN := on, IN := TRUE, PT := T#0s, Q => ready, NOT ENO => off);\n"
+      "blocks[i](EN := i < 2, n => n); a[0] := raised(EN := i < 4, v := a[i]);",
+      "VAR_GLOBAL calls : INT; END_VAR\n"
+      "FUNCTION raised : INT VAR_INPUT v : INT; END_VAR VAR_OUTPUT out : INT; END_VAR\n"
+      "calls := calls + 1; raised := v + 1; out := v; END_FUNCTION\n"
+      "FUNCTION_BLOCK Count VAR_OUTPUT n : INT; END_VAR n := n + 1; END_FUNCTION_BLOCK\n");
+  const auto shown = [&] {
+    EXPECT_EQ(program.scan(), "");
+    std::string text;
+    for (const char* name : {"r", "s", "k", "m", "text", "n", "a", "calls", "ok", "done", "off", "ready"})
+      text += program.get(name) + " ";
+    return text;
+  };
+  program.set("k", "7"), program.set("i", "9"), program.set("ok", "TRUE");
+  EXPECT_EQ(shown(), "0 10 7 0.0 'a' 0 [0, 0, 0, 0] 0 FALSE FALSE TRUE FALSE ");
+  program.set("on", "TRUE"), program.set("i", "1");
+  EXPECT_EQ(shown(), "5 13 4 4.0 'ab' 1 [1, 0, 0, 0] 2 TRUE TRUE FALSE TRUE ");
+}
+
+// A unit that declares EN and ENO does with them what its body says.
+TEST(Units, MayDeclareEnAndEnoThemselves) {
+  Translated program("VAR one : Own; list : ARRAY[0..1] OF Own; e, f : BOOL; END_VAR",
+                     "one(EN := FALSE, ENO => e); list[1](EN := TRUE, NOT ENO => f);",
+                     "FUNCTION_BLOCK Own VAR_INPUT EN : BOOL; END_VAR\n"
+                     "VAR_OUTPUT n : INT; ENO : BOOL; END_VAR\n"
+                     "n := n + 1; ENO := NOT EN; END_FUNCTION_BLOCK\n");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("one.n"), "1");
+  EXPECT_EQ(program.get("e"), "TRUE");
+  EXPECT_EQ(program.get("f"), "TRUE");
+}
+
 // The input is that of an R_TRIG or F_TRIG in the body; outside it is what the call has given.
 TEST(Units, InputsDetectEdges) {
   Translated program("VAR x, given : BOOL; b : Count; n, m, both : INT; END_VAR",
