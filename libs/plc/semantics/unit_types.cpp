@@ -41,6 +41,7 @@ const Type* Unit::named_type(const std::string& upper) {
   const auto* type = build(*declaration.type, declaration.text, nullptr);
   if (const auto again = named_.find(upper); again != named_.end()) return again->second;
   if (declaration.initial != nullptr && type->kind != Kind::error) {
+    named_[upper] = type;  // TYPE Colour : (red, green) := Colour#green
     auto& own = types_.emplace_back(*type);
     own.initial = initial_cells(declaration.initial.get(), *type, nullptr);
     type = &own;

@@ -112,6 +112,35 @@ TEST(Types, ArraysHaveAnyLimitsAndDimensions) {
   EXPECT_EQ(program.get("s"), "[[0, 7], [0, 0]]");
 }
 
+TEST(Types, EnumerationsHaveATypedValueAndAFirstValueOfTheirOwn) {
+  Translated program(
+      "VAR c : Colour; t : Signal; d : Colour := red; is_green, is_go : BOOL; END_VAR",
+      "is_green := c = Colour#green; is_go := t = Signal#green; t := Signal#stop; c := SEL(is_green, c, "
+      "red);",
+      "TYPE Colour : (red, green) := green; Signal : (stop := 5, green := 7) := Signal#green; END_TYPE\n");
+  EXPECT_EQ(program.get("c"), "green");
+  EXPECT_EQ(program.get("d"), "red");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("is_green"), "TRUE");
+  EXPECT_EQ(program.get("is_go"), "TRUE");
+  EXPECT_EQ(program.get("t"), "stop");
+  EXPECT_EQ(program.get("c"), "red");
+}
+
+TEST(Types, BitStringsHaveTypedLiterals) {
+  Translated program("VAR a, b : BOOL; c : BYTE; d : WORD; e : DWORD; f : LWORD; END_VAR",
+                     "a := BOOL#1; b := BOOL#FALSE; c := BYTE#2#1010_1010; d := NOT WORD#16#FF;\n"
+                     "e := SHL(DWORD#8#17, 4); f := LWORD#16#FFFF_FFFF_FFFF_FFFF;");
+  program.set("b", "TRUE");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("a"), "TRUE");
+  EXPECT_EQ(program.get("b"), "FALSE");
+  EXPECT_EQ(program.get("c"), "170");
+  EXPECT_EQ(program.get("d"), "65280");  // 16#FF00
+  EXPECT_EQ(program.get("e"), "240");    // 15 * 16
+  EXPECT_EQ(program.get("f"), "18446744073709551615");
+}
+
 TEST(Types, StructuresAreCopiedAsAWhole) {
   Translated program(
       "VAR p, q : Point := (x := 1.5, name := 'one'); a : ARRAY[1..2] OF Point; i : INT := 2; END_VAR",
