@@ -101,6 +101,7 @@ class Lowering {
   Value selection(const std::string& name, const Expression& e, std::vector<Value> values,
                   const Type* expected);
   const Type* selected_type(const std::string& name, std::span<const Value> values, Position at);
+  void store_chosen(const Value& target, const Value& selector, std::span<const Value> values, Position at);
   Value extreme_literal(const std::string& name, std::vector<Value> values, Position at);
   Value shift(const std::string& name, const std::vector<Value>& values, const Expression& e);
   Value string_function(const std::string& name, const std::vector<Value>& values, const Expression& e);

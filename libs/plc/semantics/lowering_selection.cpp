@@ -58,6 +58,28 @@ const Type* Lowering::selected_type(const std::string& name, std::span<const Val
   return type;
 }
 
+/// The value that the selector counts from 0; the last one for other numbers.
+void Lowering::store_chosen(const Value& target, const Value& selector, std::span<const Value> values,
+                            Position at) {
+  const auto k = selector.is_constant ? cell(selector, *elementary(Kind::lint)) : cell(selector);
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::optional<std::size_t> next;
+    if (i + 1 < values.size()) {
+      const auto number = emit_.temporary(), other = emit_.temporary();
+      emit_.constant(number, i);
+      emit_.add(Op::not_equal, other, k, number);
+      next = emit_.add(Op::jump_if, 0, other);
+    }
+    store(target, converted(values[i], *target.type, at));
+    if (next) {
+      ends.push_back(emit_.add(Op::jump));
+      emit_.jump_to_here(*next);
+    }
+  }
+  emit_.jump_to_here(ends);
+}
+
 Value Lowering::selection(const std::string& name, const Expression& e, std::vector<Value> values,
                           const Type* expected) {
   Value selector;
@@ -84,23 +106,7 @@ Value Lowering::selection(const std::string& name, const Expression& e, std::vec
   result.place.writable = true;
   const auto put = [&](const Value& value) { store(result, converted(value, *type, e.at)); };
   if (!orders) {
-    const auto k = selector.is_constant ? cell(selector, *elementary(Kind::lint)) : cell(selector);
-    std::vector<std::size_t> ends;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      std::optional<std::size_t> next;
-      if (i + 1 < values.size()) {
-        const auto number = emit_.temporary(), other = emit_.temporary();
-        emit_.constant(number, i);
-        emit_.add(Op::not_equal, other, k, number);
-        next = emit_.add(Op::jump_if, 0, other);
-      }
-      put(values[i]);
-      if (next) {
-        ends.push_back(emit_.add(Op::jump));
-        emit_.jump_to_here(*next);
-      }
-    }
-    emit_.jump_to_here(ends);
+    store_chosen(result, selector, values, e.at);
   } else if (name == "LIMIT") {
     // As the standard defines it: MIN(MAX(IN, MN), MX).
     put(values[1]);
