@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/evaluation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -23,6 +24,14 @@ std::string line(const char* format, Values... values) {
   return text;
 }
 
+// The same place of every axis: 270 deg is -90 deg.
+bool same_pose(const Angles& a, const Angles& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    most = std::max(most, std::abs(std::remainder(a[k] - b[k], 360.0)));
+  return most < 1e-6;
+}
+
 class Evaluation {
  public:
   Evaluation(const MeasurementInputs& in, const MeasuredMachine& machine,
@@ -34,6 +43,7 @@ class Evaluation {
     centres(touched);
     circles();
     vectors();
+    corrections();
     if (in_.reference == Reference::adapt) adapt();
     judge();
     return std::move(result_);
@@ -49,7 +59,7 @@ class Evaluation {
   void centres(const std::vector<TouchedPose>& touched) {
     if (touched.empty()) throw std::runtime_error("no pose was touched");
     const auto initial = pose_name({}, machine_.model);
-    if (pose_name(touched.front().angles, machine_.model) != initial)
+    if (!same_pose(touched.front().angles, {}))
       throw std::runtime_error("the first pose is " + pose_name(touched.front().angles, machine_.model) +
                                "; the measurement begins at the initial pose " + initial);
     result_.ball_diameter = in_.ball_diameter;
@@ -70,13 +80,18 @@ class Evaluation {
   }
 
   std::size_t row_of(const Angles& angles) const {
-    for (std::size_t i = 0; i < measured_.size(); ++i) {
-      double most = 0;
-      for (std::size_t k = 0; k < angles.size(); ++k)
-        most = std::max(most, std::abs(measured_[i].angles[k] - angles[k]));
-      if (most < 1e-6) return i;
-    }
+    for (std::size_t i = 0; i < measured_.size(); ++i)
+      if (same_pose(measured_[i].angles, angles)) return i;
     throw std::runtime_error("pose " + pose_name(angles, machine_.model) + " is missing among the touches");
+  }
+
+  // Point `i` of an axis.
+  Angles angles_at(const AxisRange& range, std::size_t i) const {
+    Angles angles{};
+    for (const auto& other : in_.axes) angles[other.angle] = range.other;
+    angles[range.angle] = range.start + (range.end - range.start) * static_cast<double>(i) /
+                                            static_cast<double>(range.points - 1);
+    return angles;
   }
 
   void circles() {
@@ -87,10 +102,7 @@ class Evaluation {
       axis.angle = range.angle;
       std::vector<metrology::TurnedCentre> turned;
       for (std::size_t i = 0; i < range.points; ++i) {
-        Angles angles{};
-        for (const auto& other : in_.axes) angles[other.angle] = range.other;
-        angles[range.angle] = range.start + (range.end - range.start) * static_cast<double>(i) /
-                                                static_cast<double>(range.points - 1);
+        const auto angles = angles_at(range, i);
         axis.rows.push_back(row_of(angles));
         turned.push_back({angles[range.angle], directions * measured_[axis.rows.back()].centre});
       }
@@ -185,6 +197,19 @@ class Evaluation {
         change.direction_expanded = real.axes[i].direction.expanded;
         result_.vectors.push_back(change);
       }
+  }
+
+  void corrections() {
+    std::map<std::size_t, std::vector<CircleCentre>> circles_of;
+    for (std::size_t k = 0; k < in_.axes.size(); ++k)
+      for (std::size_t i = 0; i < in_.axes[k].points; ++i)
+        circles_of[in_.axes[k].angle].push_back(
+            {angles_at(in_.axes[k], i), result_.poses[result_.axes[k].rows[i]].difference});
+    result_.corrections = circle_corrections(machine_.model, in_, measured_.front().centre, circles_of);
+    for (auto& one : result_.corrections)
+      for (const auto& vector : metrology::root_vectors(machine_.model))
+        if (vector.angle == one.angle)
+          one.all_poses = one.before + value_of(vector, result_.after) - value_of(vector, result_.before);
   }
 
   // The head's end is where the reference had the sphere: what is left over is the chain's open end.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/circle_corrections.hpp"
 #include "calibration/touches.hpp"
 #include "metrology/axis_of_rotation.hpp"
 #include "metrology/kinematic_fit.hpp"
@@ -42,6 +43,7 @@ struct KinematicsResult {
   std::vector<PoseResult> poses;
   std::vector<AxisResult> axes;
   std::vector<VectorChange> vectors;
+  std::vector<ChainCorrection> corrections;  ///< the same as the manual has them; see circle_corrections()
   metrology::ChainParameters before, after;  ///< after: what is to be written
   double ball_diameter = 0;                  ///< mm, effective: calibrated, or that of the inputs
   double touch_deviation = 0;                ///< mm, standard deviation of a touch by the residuals

@@ -39,6 +39,34 @@ void add_vectors(std::string& text, const KinematicsResult& result) {
   }
 }
 
+// Indices into the inputs' axes: rotary axis 1, rotary axis 2.
+std::vector<std::size_t> counted_axes(const MeasurementInputs& in, const ChainParameters& model) {
+  std::vector<std::size_t> axes;
+  for (const auto& vector : counted_vectors(model))
+    for (std::size_t i = 0; i < in.axes.size(); ++i)
+      if (in.axes[i].angle == vector.angle) axes.push_back(i);
+  return axes;
+}
+
+// "B90 C0": rotary axis 1, rotary axis 2.
+std::string counted_name(const Angles& angles, const MeasurementInputs& in,
+                         const std::vector<std::size_t>& axes) {
+  std::string text;
+  for (const auto axis : axes)
+    add(text, "%s%s%.6g", text.empty() ? "" : " ", letters[in.axes[axis].angle], angles[in.axes[axis].angle]);
+  return text;
+}
+
+void add_corrections(std::string& text, const KinematicsResult& result) {
+  if (result.corrections.empty()) return;
+  add(text, "%-26s %14s %14s %14s\n", "Corrections:", "X [mm]", "Y [mm]", "Z [mm]");
+  for (const auto& one : result.corrections) {
+    add_vector(text, (one.name + " before").c_str(), one.before, 5);
+    add_vector(text, (one.name + " circles").c_str(), one.circles, 5);
+    add_vector(text, (one.name + " all poses").c_str(), one.all_poses, 5);
+  }
+}
+
 }  // namespace
 
 std::string protocol_text(const ProtocolHead& head, const MeasurementInputs& in,
@@ -54,11 +82,12 @@ std::string protocol_text(const ProtocolHead& head, const MeasurementInputs& in,
       modes[static_cast<int>(in.mode)]);
   add(text, "Measuring plane : %s\nTransformation  : %s\n", planes[static_cast<int>(in.plane)],
       in.transformation.empty() ? "of the channel" : in.transformation.c_str());
-  for (std::size_t i = 0; i < in.axes.size(); ++i) {
-    const auto& range = in.axes[i];
+  const auto axes = counted_axes(in, machine.model);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto& range = in.axes[axes[i]];
     add(text, "Rotary axis %zu   : %s  start: %.3f  final: %.3f deg  no.: %zu\n", i + 1, letters[range.angle],
         range.start, range.end, range.points);
-    for (std::size_t k = 0; k < in.axes.size(); ++k)
+    for (std::size_t k = 0; k < axes.size(); ++k)
       if (k != i) add(text, "Position of rotary axis %zu : %.3f deg\n", k + 1, range.other);
   }
   add(text, "Sphere %.4f mm, ball %.4f mm, length of the probe %.4f mm, touches %zu\n", in.sphere_diameter,
@@ -70,16 +99,17 @@ std::string protocol_text(const ProtocolHead& head, const MeasurementInputs& in,
   add(text, "%-26s %14s %14s %14s\n", "Difference of measure:", "X [mm]", "Y [mm]", "Z [mm]");
   add_vector(text, "max value", high, 5);
   add_vector(text, "min value", low, 5);
-  for (const auto& axis : result.axes)
-    for (const auto row : axis.rows) {
+  for (const auto axis : axes)
+    for (const auto row : result.axes[axis].rows) {
       const auto& pose = result.poses[row];
-      add_vector(text, pose_name(pose.angles, machine.model).c_str(), pose.difference, 5);
+      add_vector(text, counted_name(pose.angles, in, axes).c_str(), pose.difference, 5);
     }
   add(text, "%-26s %14s %14s %14s %14s\n", "Residual after:", "X [mm]", "Y [mm]", "Z [mm]", "diameter [mm]");
   for (const auto& pose : result.poses)
     add(text, "%-26s %14.5f %14.5f %14.5f %14.5f\n", pose_name(pose.angles, machine.model).c_str(),
         pose.residual.x(), pose.residual.y(), pose.residual.z(), pose.diameter);
   rule(text, '-');
+  add_corrections(text, result);
   add_vectors(text, result);
   add(text, "Standard deviation of a touch by the residuals: %.5f mm (%zu degrees of freedom)\n",
       result.touch_deviation, result.freedom);

@@ -364,6 +364,11 @@ TEST(KinematicsMeasurement, TouchesReadFromTheirTextGiveTheSameResult) {
   EXPECT_EQ(again[3].positions.size(), 10u) << "2 x (4 + 1)";
   const auto a = evaluate(in, machine.measured, touched), b = evaluate(in, machine.measured, again);
   EXPECT_LT((a.after.table_2->offset - b.after.table_2->offset).norm(), 2e-6) << "the text has 1e-6 mm";
+  // A pose by other turns of its axes is the same pose.
+  auto turned = again;
+  for (auto& pose : turned) pose.angles[2] -= 360;
+  EXPECT_LT((evaluate(in, machine.measured, turned).after.table_2->offset - b.after.table_2->offset).norm(),
+            2e-6);
   auto less = again;
   less.erase(less.begin() + 4);
   EXPECT_THAT(fault([&] { evaluate(in, machine.measured, less); }),
