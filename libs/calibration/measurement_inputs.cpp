@@ -69,8 +69,9 @@ std::string fault_of(const MeasurementInputs& in, const MeasuredMachine& machine
   if (present.empty() || present.size() > 2)
     return machine.name + " has " + std::to_string(present.size()) +
            " rotary axes in its transformation: 1 or 2 can be measured";
-  if (!in.transformation.empty() && !machine.structure.empty() && in.transformation != machine.structure)
-    return "transformation " + in.transformation + ": the machine has " + machine.structure;
+  if (!in.transformation.empty() && in.transformation != transformation_name)
+    return "transformation " + in.transformation + " is not known: the channel has " +
+           std::string(transformation_name);
   if (auto fault = frame_fault(machine.model.linear_direction); !fault.empty()) return fault;
   if (auto fault = plane_fault(in.plane, machine.model.tool_direction); !fault.empty()) return fault;
   if (!(in.positioning_feed > in.first_touch_feed && in.first_touch_feed > in.measuring_feed))
@@ -131,7 +132,6 @@ std::optional<ProbeAndSphere> probe_and_sphere(const std::optional<truth::TouchP
 
 MeasurementInputs default_inputs(const MeasuredMachine& machine) {
   MeasurementInputs in;
-  in.transformation = machine.structure;
   if (const auto& gauges = machine.gauges) {
     in.probe_length = gauges->probe_length, in.ball_diameter = gauges->ball_diameter;
     in.sphere = gauges->sphere, in.sphere_diameter = gauges->sphere_diameter;
