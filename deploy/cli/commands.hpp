@@ -27,7 +27,7 @@ void add_cluster_commands(CLI::App& app, Common& common);      // up, status
 void add_down_command(CLI::App& app, Common& common);          // down
 void add_run_command(CLI::App& app, Common& common);           // run
 void add_operator_commands(CLI::App& app, Common& common);     // mdi, alarms, estop
-void add_channel_command(CLI::App& app, Common& common);       // channel
+void add_channel_command(CLI::App& app, Common& common);       // channel, its status
 void add_parameter_commands(CLI::App& app, Common& common);    // param
 void add_compensation_command(CLI::App& app, Common& common);  // compensation
 void add_topic_commands(CLI::App& app, Common& common);        // topic, record

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "active_alarms.hpp"
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
@@ -15,7 +16,6 @@
 #include "commands.hpp"
 #include "commands/command_table.hpp"
 #include "new_alarms.hpp"
-#include "text/instant.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -85,11 +85,6 @@ int mdi(const Common& common, const Line& line) {
   return 0;
 }
 
-struct ActiveAlarm {
-  idl::service::Alarm alarm;
-  std::string raised;  // ISO 8601 in UTC
-};
-
 // The cycle is that of the stream; what has nothing to do with the stream names none.
 void print_alarm(const ActiveAlarm& one) {
   const auto& a = one.alarm;
@@ -104,23 +99,10 @@ int alarms(const Common& common, bool reset, bool take_over) {
   if (reset) station.emplace(cluster.run.domain, take_over);
   cluster::Client client(cluster.run.domain);
   if (reset) client.reset_alarms();
-  auto reader = client.bus().reader(topics::alarm);
-  const double began = service::monotonic_seconds();
-  client.wait_for_all_services([&] { return reader.matched(); });
-  // What was written before follows its writer; on a computer that takes long for those, it takes longer too.
-  const double found = service::monotonic_seconds();
-  std::map<std::array<std::uint32_t, 3>, ActiveAlarm> list;
-  const double until = found + std::max(0.25, 2 * (found - began));
-  idl::service::Alarm a;
-  while (service::monotonic_seconds() < until) {
-    while (reader.take(a))
-      list[{a.instance, a.number, a.part}] = {
-          a, text::instant(static_cast<std::uint64_t>(reader.info().source_timestamp))};
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
+  ActiveAlarms active(client);
+  active.wait_for_all();
   bus::Json json = bus::Json::array();
-  for (const auto& [key, entry] : list) {
-    if (!entry.alarm.active) continue;
+  for (const auto& [key, entry] : active.take()) {
     json.push_back(bus::to_json(entry.alarm));
     json.back()["raised"] = entry.raised;
     if (!common.json) print_alarm(entry);
