@@ -12,8 +12,6 @@
 namespace trunnion::calibration {
 namespace {
 
-constexpr const char* letters[]{"A", "B", "C", "U", "V", "W"};
-
 std::string number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.10g", value);
@@ -82,7 +80,7 @@ std::string fault_of(const MeasurementInputs& in, const MeasuredMachine& machine
     return std::to_string(in.axes.size()) + " rotary axes are given, the machine has " +
            std::to_string(present.size());
   for (const auto& range : in.axes) {
-    const std::string name = std::string("axis ") + letters[range.angle];
+    const std::string name = std::string("axis ") + rotary_letters[range.angle];
     if (std::find(present.begin(), present.end(), range.angle) == present.end())
       return name + ": the transformation has no such rotary axis";
     if (std::count_if(in.axes.begin(), in.axes.end(), [&](const auto& r) { return r.angle == range.angle; }) >
@@ -105,8 +103,8 @@ std::string fault_of(const MeasurementInputs& in, const MeasuredMachine& machine
       if (other == range.angle) continue;
       const auto& limits = machine.outline.axes[3 + other];
       if (!limits.present) continue;
-      if (auto fault =
-              outside(name + ": position of " + letters[other], range.other, limits.low, limits.high, "deg");
+      if (auto fault = outside(name + ": position of " + rotary_letters[other], range.other, limits.low,
+                               limits.high, "deg");
           !fault.empty())
         return fault;
     }

@@ -26,6 +26,9 @@ enum class Reference { without, measure, adapt };
 /// The name of the only transformation that a channel has.
 inline constexpr std::string_view transformation_name = "TOOL_CARR_KIN";
 
+/// By the index of a rotary axis, AxisRange::angle.
+inline constexpr std::string_view rotary_letters = "ABCUVW";
+
 /// How one rotary axis is measured.
 struct AxisRange {
   std::size_t angle = 0;             ///< 0 = A .. 5 = W

@@ -21,7 +21,6 @@ void add_vector(std::string& text, const char* name, const Vec3& v, int digits) 
 
 constexpr const char* modes[]{"correct", "only correct", "measure only"};
 constexpr const char* planes[]{"G17", "G18", "G19", "active"};
-constexpr const char* letters[]{"A", "B", "C", "U", "V", "W"};
 
 void add_vectors(std::string& text, const KinematicsResult& result) {
   add(text, "%-26s %14s %14s %14s\n", "Offset vectors:", "X [mm]", "Y [mm]", "Z [mm]");
@@ -53,7 +52,8 @@ std::string counted_name(const Angles& angles, const MeasurementInputs& in,
                          const std::vector<std::size_t>& axes) {
   std::string text;
   for (const auto axis : axes)
-    add(text, "%s%s%.6g", text.empty() ? "" : " ", letters[in.axes[axis].angle], angles[in.axes[axis].angle]);
+    add(text, "%s%c%.6g", text.empty() ? "" : " ", rotary_letters[in.axes[axis].angle],
+        angles[in.axes[axis].angle]);
   return text;
 }
 
@@ -85,8 +85,8 @@ std::string protocol_text(const ProtocolHead& head, const MeasurementInputs& in,
   const auto axes = counted_axes(in, machine.model);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto& range = in.axes[axes[i]];
-    add(text, "Rotary axis %zu   : %s  start: %.3f  final: %.3f deg  no.: %zu\n", i + 1, letters[range.angle],
-        range.start, range.end, range.points);
+    add(text, "Rotary axis %zu   : %c  start: %.3f  final: %.3f deg  no.: %zu\n", i + 1,
+        rotary_letters[range.angle], range.start, range.end, range.points);
     for (std::size_t k = 0; k < axes.size(); ++k)
       if (k != i) add(text, "Position of rotary axis %zu : %.3f deg\n", k + 1, range.other);
   }
