@@ -147,8 +147,9 @@ Json StateDocument::services(double now) const {
   for (const auto& [instance, known] : services_) {
     const auto wanted = expected.find(instance);
     const bool planned = wanted != expected.end();
-    // Another process has its place, after a swap say: its silence is no fault.
-    if (!planned && has_cluster_ && now - known.heard >= heartbeat_timeout) continue;
+    // Another process has its place, after a swap say: its silence is no fault. One of another contract has
+    // only announced itself, and is shown.
+    if (!planned && has_cluster_ && known.beating && now - known.heard >= heartbeat_timeout) continue;
     add(instance, known, planned ? wanted->second : nullptr);
   }
   for (const auto& [instance, wanted] : expected)

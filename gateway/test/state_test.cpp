@@ -174,6 +174,9 @@ TEST(StateDocument, AnotherContractIsShown) {
   announcement.contract = "theirs";
   document.apply(announcement);
   EXPECT_EQ(document.document(0)["services"]["1"]["contract_match"], false);
+  document.apply(idl::service::Cluster{});
+  EXPECT_EQ(document.document(2 * heartbeat_timeout)["services"]["1"]["contract_match"], false)
+      << "also where the launcher does not name it, which nobody hears beat";
   announcement.contract = bus::contract_of("drive");
   document.apply(announcement);
   EXPECT_EQ(document.document(0)["services"]["1"]["contract_match"], true);

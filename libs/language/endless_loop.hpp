@@ -24,6 +24,7 @@ struct ReadingPlace {
   };
   std::array<Level, max_nesting + 1> levels{};  ///< the main program first
   std::size_t depth = 0;
+  std::size_t modal_calls = 0;  ///< of G66 and G66.1, active
   bool operator==(const ReadingPlace&) const = default;
 };
 

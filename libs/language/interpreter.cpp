@@ -88,6 +88,7 @@ bool Interpreter::jumped_back(std::uint64_t from, std::size_t depth) const {
 bool Interpreter::repeats_for_ever() {
   ReadingPlace place;
   place.depth = depth_;
+  place.modal_calls = modal_calls_.count();
   for (std::size_t i = 0; i <= depth_; ++i) {
     const CallLevel& level = levels_[i];
     const TextPosition behind = i == depth_ ? reader_.position() : level.resume;

@@ -78,11 +78,11 @@ Fault PathMotion::read_corner(std::optional<Corner>& corner) {
 Fault PathMotion::set_turns(const AxisValues& target, Arc& arc) {
   const std::uint8_t normal = plane_axes(arc.plane).normal;
   const char lead_letter = static_cast<char>('I' + normal);
-  if (!words_.has(lead_letter)) return {};
+  if (!words_.has(lead_letter) || (state_.modal.tool_vector && words_.has('R'))) return {};
   // The third centre letter is the lead of a helix: how far it goes in a turn, hence how many turns. Posts
-  // that write all three letters write 0, which says nothing.
+  // that write all three letters write 0, which says nothing, also of an arc in the plane.
   const double height = std::abs(target[normal] - state_.program_position[normal]);
-  if (height < no_height || (state_.modal.tool_vector && words_.has('R'))) return {};
+  if (height < no_height && words_.value(lead_letter) != 0) return {};
   const double lead = std::abs(words_.length(lead_letter));
   if (words_.has('L') || lead == 0) return {};
   if (height / lead > most_turns) return {AlarmNumber::value_range, words_.offset(lead_letter)};

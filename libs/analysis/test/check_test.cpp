@@ -157,6 +157,13 @@ TEST(Summary, AProgramThatRepeatsForEverIsSaidOnce) {
       << "the line of the call";
 }
 
+// Four modal calls may be active: the fifth pass is the alarm 1402.
+TEST(Summary, AProgramWhoseModalCallsNestInEachPassHasTheirAlarm) {
+  const auto summary = summary_of("N1 G66 P7\nGOTO 1\nO7\nM99\n");
+  EXPECT_THAT(summary, HasSubstr(": 1402: "));
+  EXPECT_EQ(summary.find("for ever"), std::string::npos) << summary;
+}
+
 TEST(Summary, ALoopThatEndsRunsToItsEnd) {
   for (const char* program : {
            "#1=0\nWHILE [#1 LT 100] DO1\n#1=#1+1\nG4 P10\nEND1\nM30\n",

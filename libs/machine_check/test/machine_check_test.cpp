@@ -162,10 +162,12 @@ TEST(MachineCheck, AMachineWithoutItsFiles) {
 // As `cp -r configs/machines/four-axis mine` leaves it.
 TEST(MachineCheck, ALinkThatLeadsNowhereIsNamedOnce) {
   Copy copy("four-axis");
-  copy.remove("plc");
-  fs::create_symlink("../ac-table/plc", fs::path(copy.path()) / "plc");
+  copy.remove("plc").remove("parameters.yaml");
+  for (const auto* name : {"plc", "parameters.yaml"})
+    fs::create_symlink(fs::path("../ac-table") / name, fs::path(copy.path()) / name);
   EXPECT_THAT(copy.findings(),
-              ElementsAre("plc: error: is a link to '../ac-table/plc', which is not there: 'trunnion new "
+              ElementsAre(testing::StartsWith("parameters.yaml: error: is a link to "),
+                          "plc: error: is a link to '../ac-table/plc', which is not there: 'trunnion new "
                           "machine NAME --from MACHINE' copies a machine whole"));
 }
 

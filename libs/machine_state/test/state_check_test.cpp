@@ -68,9 +68,13 @@ TEST_F(StateCheck, AnEditedProgramIsTakenWhenTheOperatorAcceptsIt) {
 }
 
 TEST_F(StateCheck, ADirectoryInThePlaceOfAFileIsNamed) {
-  std::filesystem::remove(state() + "/journal.jsonl");
-  std::filesystem::create_directories(state() + "/journal.jsonl");
-  EXPECT_EQ(problems(state()), "journal.jsonl: it is no file: move it away\n");
+  for (const std::string name : {"journal.jsonl", "tools.yaml"}) {
+    std::filesystem::remove(state() + "/" + name);
+    std::filesystem::create_directories(state() + "/" + name);
+  }
+  EXPECT_TRUE(std::filesystem::exists(state() + "/tools.yaml.previous")) << "which is a file";
+  EXPECT_EQ(problems(state()),
+            "journal.jsonl: it is no file: move it away\ntools.yaml: it is no file: move it away\n");
 }
 
 TEST_F(StateCheck, NothingElseCanBeAccepted) {
