@@ -215,10 +215,7 @@ bool Lowering::settle(Value& left, Value& right, const std::string& op, Position
       return false;
     }
     literal = converted(literal, *type, at);
-    auto& typed_side = left.is_literal() ? left : right;
-    (void)typed_side;
-    return !literal.is_error() &&
-           (same_type(*left.type, *right.type) || common_type(*left.type, *right.type) != nullptr);
+    if (literal.is_error()) return false;
   }
   if (common_type(*left.type, *right.type) != nullptr) return true;
   std::string text =
