@@ -237,6 +237,10 @@ const Wrong programs[] = {
      "1:26: error: 'B' calls or contains itself; recursion is not permitted (IEC 61131-3, 6.6.1)"},
     {false, "FUNCTION_BLOCK TON END_FUNCTION_BLOCK",
      "1:16: error: 'TON' is declared already in the standard library"},
+    {false,
+     "PROGRAM main VAR_INPUT EN : BOOL; END_VAR VAR n : INT; END_VAR IF EN THEN n := 1; END_IF; END_PROGRAM "
+     "TEST 'a' main(EN := TRUE); END_TEST",
+     "1:112: error: a program is called without arguments; assign program.variable before"},
     {false, "FUNCTION_BLOCK B VAR_INPUT i : INT R_EDGE; END_VAR END_FUNCTION_BLOCK",
      "1:36: error: R_EDGE and F_EDGE are for VAR_INPUT of programs and function blocks, and for BOOL"},
     {false, "FUNCTION F : INT VAR_INPUT i : BOOL F_EDGE; END_VAR F := 1; END_FUNCTION",

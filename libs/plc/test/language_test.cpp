@@ -382,15 +382,19 @@ TEST(Units, AreExecutedWithEnOnly) {
 
 // A unit that declares EN and ENO does with them what its body says.
 TEST(Units, MayDeclareEnAndEnoThemselves) {
-  Translated program("VAR one : Own; list : ARRAY[0..1] OF Own; e, f : BOOL; END_VAR",
-                     "one(EN := FALSE, ENO => e); list[1](EN := TRUE, NOT ENO => f);",
-                     "FUNCTION_BLOCK Own VAR_INPUT EN : BOOL; END_VAR\n"
-                     "VAR_OUTPUT n : INT; ENO : BOOL; END_VAR\n"
-                     "n := n + 1; ENO := NOT EN; END_FUNCTION_BLOCK\n");
+  Translated program(
+      "VAR one : Own; list : ARRAY[0..1] OF Own; e, f : BOOL; i : INT; END_VAR",
+      "one(EN := FALSE, ENO => e); list[1](EN := TRUE, NOT ENO => f); i := chosen(EN := TRUE);",
+      "FUNCTION chosen : INT VAR_INPUT EN : BOOL; v : INT; END_VAR\n"
+      "chosen := SEL(EN, 2, v + 3); END_FUNCTION\n"
+      "FUNCTION_BLOCK Own VAR_INPUT EN : BOOL; END_VAR\n"
+      "VAR_OUTPUT n : INT; ENO : BOOL; END_VAR\n"
+      "n := n + 1; ENO := NOT EN; END_FUNCTION_BLOCK\n");
   EXPECT_EQ(program.scan(), "");
   EXPECT_EQ(program.get("one.n"), "1");
   EXPECT_EQ(program.get("e"), "TRUE");
   EXPECT_EQ(program.get("f"), "TRUE");
+  EXPECT_EQ(program.get("i"), "3");
 }
 
 // The input is that of an R_TRIG or F_TRIG in the body; outside it is what the call has given.
@@ -470,6 +474,20 @@ TEST(Tests, PassOrNameThePlaceAndTheValues) {
   EXPECT_FALSE(tests[1].passed);
   EXPECT_EQ(tests[1].message, "t.st:6:1: expected 5, found 4");
   EXPECT_TRUE(tests[2].passed) << tests[2].message;
+}
+
+TEST(Tests, CallBlocksOfAProgramThatDeclareEn) {
+  const auto result =
+      compile({{"t.st",
+                "FUNCTION_BLOCK Own VAR_INPUT EN : BOOL; END_VAR VAR_OUTPUT n : INT; END_VAR\n"
+                "n := n + SEL(EN, 1, 10); END_FUNCTION_BLOCK\n"
+                "PROGRAM main VAR o : Own; END_VAR o(EN := TRUE); END_PROGRAM\n"
+                "TEST 'own'\nmain.o(EN := FALSE); ASSERT_EQ(main.o.n, 1);\nEND_TEST\n"}},
+              interface_registers());
+  ASSERT_TRUE(result.good()) << testing::PrintToString(result.lines());
+  const auto tests = run_tests(result);
+  ASSERT_EQ(tests.size(), 1u);
+  EXPECT_TRUE(tests[0].passed) << tests[0].message;
 }
 
 }  // namespace
