@@ -286,6 +286,7 @@ const Row literal_rows[] = {
     {"DINT", "SEL(i0 = 0, 3, 2147483647)", "2147483647"},
     {"BOOL", "f0 < SQRT(2.25)", "TRUE"},
     {"BOOL", "u1 = SEL(i0 = 0, 0, 1)", "TRUE"},
+    {"BOOL", "u1 = 1 AND SEL(i0 = 0, 0, 1)", "TRUE"},
     {"BOOL", "GT(SEL(i0 = 0, 3, 4), 3)", "TRUE"},
     {"BYTE", "SHL(b15, SEL(i0 = 0, 0, 1))", "30"},
 };
