@@ -21,12 +21,20 @@ TEST(Statements, IfTakesTheFirstBranchThatIsTrue) {
 }
 
 TEST(Statements, CaseHasValuesRangesAndEnumeratedValues) {
-  Translated program("VAR i, r : INT; c : Color; s : STRING; END_VAR",
-                     "CASE i OF -1: r := 1; 3, 5..7: r := 2; ELSE r := 3; END_CASE;\n"
+  // 5 * 4 is 20, 27 MOD 4 + 40 is 43.
+  Translated program("VAR i, r : INT; c : Color; s : STRING; END_VAR VAR CONSTANT k : INT := 4; END_VAR",
+                     "CASE i OF -1: r := 1; 3, 5..7: r := 2; 5 * k: r := 4; 27 MOD k + 40: r := 5;\n"
+                     "ELSE r := 3; END_CASE;\n"
                      "CASE c OF red: s := 'r'; Color#green, blue: s := 'gb'; END_CASE;",
                      "TYPE Color : (red, green, blue); END_TYPE\n");
-  for (const auto& [in, out] :
-       {std::pair{"-1", "1"}, {"3", "2"}, {"4", "3"}, {"5", "2"}, {"7", "2"}, {"8", "3"}}) {
+  for (const auto& [in, out] : {std::pair{"-1", "1"},
+                                {"3", "2"},
+                                {"4", "3"},
+                                {"5", "2"},
+                                {"7", "2"},
+                                {"8", "3"},
+                                {"20", "4"},
+                                {"43", "5"}}) {
     program.set("i", in);
     program.scan();
     EXPECT_EQ(program.get("r"), out) << in;
