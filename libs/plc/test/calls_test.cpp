@@ -47,6 +47,23 @@ TEST(Units, AreExecutedWithEnOnly) {
   EXPECT_EQ(shown(), "5 13 4 4.0 'ab' 1 [1, 0, 0, 0] 2 TRUE TRUE FALSE TRUE ");
 }
 
+// The initial value of the 1000 cells is copied, not written by an instruction for each.
+TEST(Units, WithEnGiveALargeResultByFewInstructions) {
+  const auto translated = [](const std::string& value) {
+    return Translated("VAR on : BOOL; a : List; END_VAR", "a := " + value + ";",
+                      "TYPE List : ARRAY[0..999] OF INT := [1000(7)]; END_TYPE\n"
+                      "FUNCTION filled : List filled[0] := 5; END_FUNCTION\n");
+  };
+  auto program = translated("filled(EN := on)");
+  EXPECT_LT(program.compilation.code->code.size(), translated("filled()").compilation.code->code.size() + 30);
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("a[0]"), "7");
+  program.set("on", "TRUE");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("a[0]"), "5");
+  EXPECT_EQ(program.get("a[999]"), "7");
+}
+
 // A unit that declares EN and ENO does with them what its body says.
 TEST(Units, MayDeclareEnAndEnoThemselves) {
   Translated program(
