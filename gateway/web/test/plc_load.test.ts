@@ -51,4 +51,5 @@ test("Structured Text has its colours, also in comments over several lines", () 
 test("an instruction is one where a line of a list begins with it", () => {
   expect(kinds(["LD s", "ST %Y0.1"], true)).toEqual([["LD", "keyword"], ["ST", "keyword"], ["%Y0.1", "propertyName"]]);
   expect(kinds(["s := ld;"])).toEqual([[":=", "operator"]]);
+  expect(kinds(["e : FALLING_EDGE;"])).toEqual([["FALLING_EDGE", "typeName"]]);
 });

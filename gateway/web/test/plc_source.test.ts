@@ -28,6 +28,11 @@ test("names of a line are found without comments and strings", () => {
   expect(lines.map(({ text }) => text).join("\n")).toBe(source);
 });
 
+test("a comment begins in no string, also of wide characters", () => {
+  const lines = sourceLines(`a := "(*"; b := 'x /*';\nc := "it$"s // d"; e := 1;`);
+  expect(lines.map(({ names }) => names)).toEqual([["a", "b"], ["c", "e"]]);
+});
+
 test("a name is that of the program, else of the whole, else a register", () => {
   const paths = new Paths(["main.Code", "main.list[2].n", "total"]);
   expect(paths.find("code", "main")).toBe("main.Code");

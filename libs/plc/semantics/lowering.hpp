@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "plc/semantics/emitter.hpp"
 #include "plc/semantics/unit.hpp"
@@ -56,6 +57,7 @@ class Lowering {
   Value kept(Value value);
   Value own_copy(const Value& value, const Type* expected, Position at);
   void initial_at(std::size_t jump, const Value& value);
+  void fill(std::int32_t first, const std::vector<std::uint64_t>& cells);
   Value variable_value(Variable& variable);
 
   // places

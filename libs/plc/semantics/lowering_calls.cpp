@@ -38,7 +38,12 @@ const Type* Lowering::instance_type(const Expression& e) const {
     const Variable* variable = unit_.find_global(e.name);
     if (pou_ != nullptr)
       if (const auto found = pou_->names.find(e.name); found != pou_->names.end()) variable = found->second;
-    return variable == nullptr ? nullptr : variable->type;
+    if (variable == nullptr && in_test()) variable = unit_.find_instance(e.name);
+    if (variable != nullptr) return variable->type;
+    // A test names the variables of a program by the program.
+    const auto* pou = in_test() ? unit_.find_pou(e.name) : nullptr;
+    const bool is_program = pou != nullptr && pou->declaration->kind == PouKind::program;
+    return is_program && unit_.translated(e.name, e.at) != nullptr ? &pou->type : nullptr;
   }
   if (e.kind != Expression::Kind::index && e.kind != Expression::Kind::member) return nullptr;
   const auto* owner = instance_type(*e.parts[0]);
@@ -196,7 +201,7 @@ bool Lowering::bind(const Pou& pou, const Expression& e, bool is_block, std::vec
     const auto& p = *parameters[i];
     if (p.section == VariableSection::in_out)
       report(e.at, "VAR_IN_OUT '" + p.text + "' of '" + name + "' needs a variable in every call");
-    else if (p.section == VariableSection::input && !is_block && e.arguments.empty() &&
+    else if (p.section == VariableSection::input && !is_block && given.empty() &&
              p.initial == p.type->initial)
       report(e.at, "'" + name + "' needs a value for '" + p.text + "'");
   }
@@ -373,7 +378,7 @@ void Lowering::call_block(const Value& instance, const Expression& e) {
 }
 
 void Lowering::call_program(Pou& program, const Expression& e) {
-  if (!e.arguments.empty())
+  if (!e.arguments.empty() || (declares_control(*program.declaration) && !e.control.empty()))
     failed(e.at, "a program is called without arguments; assign program.variable before");
   emit_.add(Op::call, static_cast<std::int32_t>(program.routine), static_cast<std::int32_t>(program.base));
 }

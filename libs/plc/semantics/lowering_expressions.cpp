@@ -168,9 +168,10 @@ Value Lowering::logic(const Expression& e, const Type* expected) {
     auto result = temporary(elementary(Kind::boolean));
     emit_.add(Op::move, result.place.offset, cell(left));
     const auto jump = emit_.add(e.name == "AND" ? Op::jump_if_not : Op::jump_if, 0, result.place.offset);
-    auto right = converted(expression(*e.parts[1]), *elementary(Kind::boolean), e.parts[1]->at);
+    const auto& boolean = *elementary(Kind::boolean);
+    const auto right = converted(expression(*e.parts[1], &boolean), boolean, e.parts[1]->at);
     if (right.is_error()) return right;
-    emit_.add(Op::move, result.place.offset, cell(right, *elementary(Kind::boolean)));
+    emit_.add(Op::move, result.place.offset, cell(right, boolean));
     emit_.jump_to_here(jump);
     return result;
   }
@@ -215,10 +216,7 @@ bool Lowering::settle(Value& left, Value& right, const std::string& op, Position
       return false;
     }
     literal = converted(literal, *type, at);
-    auto& typed_side = left.is_literal() ? left : right;
-    (void)typed_side;
-    return !literal.is_error() &&
-           (same_type(*left.type, *right.type) || common_type(*left.type, *right.type) != nullptr);
+    if (literal.is_error()) return false;
   }
   if (common_type(*left.type, *right.type) != nullptr) return true;
   std::string text =

@@ -84,9 +84,21 @@ Value Lowering::own_copy(const Value& value, const Type* expected, Position at) 
 void Lowering::initial_at(std::size_t jump, const Value& value) {
   const auto end = emit_.add(Op::jump);
   emit_.jump_to_here(jump);
-  for (std::uint32_t i = 0; i < value.type->cells; ++i)
-    emit_.constant(value.place.offset + static_cast<std::int32_t>(i), value.type->initial[i]);
+  fill(value.place.offset, value.type->initial);
   emit_.jump_to_here(end);
+}
+
+/// Cells of the frame, with few instructions.
+void Lowering::fill(std::int32_t first, const std::vector<std::uint64_t>& cells) {
+  if (cells.size() <= 4) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      emit_.constant(first + static_cast<std::int32_t>(i), cells[i]);
+    return;
+  }
+  const auto from = emit_.temporary(), to = emit_.temporary();
+  emit_.constant(from, unit_.allocate(cells));
+  emit_.add(Op::address, to, first);
+  emit_.add(Op::copy_block, to, from, static_cast<std::int32_t>(cells.size()));
 }
 
 Place Lowering::moved(Place place, std::int32_t cells) const {
@@ -329,16 +341,7 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
 void Lowering::initialize(const Variable& variable) {
   if (variable.type->kind == Kind::error || variable.place.base != Place::Base::frame) return;
   const auto mark = emit_.mark();
-  bool constant_fill = variable.initial.size() <= 4;
-  if (constant_fill) {
-    for (std::size_t i = 0; i < variable.initial.size(); ++i)
-      emit_.constant(variable.place.offset + static_cast<std::int32_t>(i), variable.initial[i]);
-  } else {
-    const auto from = emit_.temporary(), to = emit_.temporary();
-    emit_.constant(from, unit_.allocate(variable.initial));
-    emit_.add(Op::address, to, variable.place.offset);
-    emit_.add(Op::copy_block, to, from, static_cast<std::int32_t>(variable.initial.size()));
-  }
+  fill(variable.place.offset, variable.initial);
   emit_.release(mark);
 }
 

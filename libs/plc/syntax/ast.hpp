@@ -50,6 +50,7 @@ struct Expression {
   std::vector<ExpressionPtr> repeat;  ///< of lists: count of each part or nothing
   std::vector<Argument> arguments;
   std::vector<Argument> control;  ///< of a call: EN := value, ENO => variable
+  std::string detected;           ///< of a block that detects the edges of an input: the input, in capitals
 };
 
 struct Statement;

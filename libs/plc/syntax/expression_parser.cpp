@@ -203,6 +203,7 @@ ExpressionPtr ExpressionParser::designator() {
     const auto edge = edges_.find(token.upper);
     node = make_name(edge == edges_.end() ? token.text : edge->second, token.at);
     if (edge != edges_.end()) {
+      node->detected = token.upper;
       auto output = make(Expression::Kind::member, token.at);
       output->name = output->text = "Q";
       output->parts.push_back(std::move(node));

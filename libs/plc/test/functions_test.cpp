@@ -286,6 +286,7 @@ const Row literal_rows[] = {
     {"DINT", "SEL(i0 = 0, 3, 2147483647)", "2147483647"},
     {"BOOL", "f0 < SQRT(2.25)", "TRUE"},
     {"BOOL", "u1 = SEL(i0 = 0, 0, 1)", "TRUE"},
+    {"BOOL", "u1 = 1 AND SEL(i0 = 0, 0, 1)", "TRUE"},
     {"BOOL", "GT(SEL(i0 = 0, 3, 4), 3)", "TRUE"},
     {"BYTE", "SHL(b15, SEL(i0 = 0, 0, 1))", "30"},
 };
@@ -308,6 +309,16 @@ TEST(StandardFunctions, GiveTheValuesOfTheirDefinition) {
 
 TEST(StandardFunctions, OfLiteralsFitTheTypeThatTakesTheirValue) {
   for (const auto& row : literal_rows) expect_value(row);
+}
+
+TEST(StandardFunctions, OfLiteralsAreLimitsAndStepOfALoop) {
+  Translated program("VAR i, n : INT; b : BOOL; END_VAR",
+                     "FOR i := SEL(b, 1, 0) TO SEL(b, 3, 4) BY SEL(b, 1, 2) DO n := n + 1; END_FOR;");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("n"), "3");  // 1, 2, 3
+  program.set("b", "TRUE");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("n"), "6");  // and 0, 2, 4
 }
 
 // Constants are folded by the translator: the same expression of variables is computed by the

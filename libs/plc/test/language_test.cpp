@@ -21,12 +21,20 @@ TEST(Statements, IfTakesTheFirstBranchThatIsTrue) {
 }
 
 TEST(Statements, CaseHasValuesRangesAndEnumeratedValues) {
-  Translated program("VAR i, r : INT; c : Color; s : STRING; END_VAR",
-                     "CASE i OF -1: r := 1; 3, 5..7: r := 2; ELSE r := 3; END_CASE;\n"
+  // 5 * 4 is 20, 27 MOD 4 + 40 is 43.
+  Translated program("VAR i, r : INT; c : Color; s : STRING; END_VAR VAR CONSTANT k : INT := 4; END_VAR",
+                     "CASE i OF -1: r := 1; 3, 5..7: r := 2; 5 * k: r := 4; 27 MOD k + 40: r := 5;\n"
+                     "ELSE r := 3; END_CASE;\n"
                      "CASE c OF red: s := 'r'; Color#green, blue: s := 'gb'; END_CASE;",
                      "TYPE Color : (red, green, blue); END_TYPE\n");
-  for (const auto& [in, out] :
-       {std::pair{"-1", "1"}, {"3", "2"}, {"4", "3"}, {"5", "2"}, {"7", "2"}, {"8", "3"}}) {
+  for (const auto& [in, out] : {std::pair{"-1", "1"},
+                                {"3", "2"},
+                                {"4", "3"},
+                                {"5", "2"},
+                                {"7", "2"},
+                                {"8", "3"},
+                                {"20", "4"},
+                                {"43", "5"}}) {
     program.set("i", in);
     program.scan();
     EXPECT_EQ(program.get("r"), out) << in;
@@ -304,21 +312,6 @@ TEST(Units, FunctionsBeginWithTheirInitialValuesAndHaveOutputs) {
   EXPECT_EQ(program.get("s"), "5");
 }
 
-TEST(Units, OutputsAreGivenInverted) {
-  Translated program(
-      "VAR off, same : BOOL; w : WORD; t : TON; list : ARRAY[0..1] OF BOOL; END_VAR",
-      "both(a := TRUE, NOT q => off, NOT w => w); both(a := TRUE, q => same);\n"
-      "t(IN := TRUE, PT := T#1s, NOT Q => list[1]);",
-      "FUNCTION both VAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL := FALSE; w : WORD; END_VAR\n"
-      "q := a; w := 16#00F0; END_FUNCTION\n");
-  program.set("off", "TRUE");
-  EXPECT_EQ(program.scan(), "");
-  EXPECT_EQ(program.get("off"), "FALSE");
-  EXPECT_EQ(program.get("same"), "TRUE");
-  EXPECT_EQ(program.get("w"), "65295");  // 16#FF0F
-  EXPECT_EQ(program.get("list"), "[FALSE, TRUE]");
-}
-
 TEST(Units, InOutIsTheCallersVariable) {
   const std::string before =
       "FUNCTION swap\nVAR_IN_OUT a, b : INT; END_VAR\nVAR t : INT; END_VAR\nt := a; a := b; b := "
@@ -351,71 +344,6 @@ TEST(Units, BlocksKeepTheirStateAndNest) {
   EXPECT_EQ(program.get("s"), "22");
   EXPECT_EQ(program.get("p[1].sum"), "0");
   EXPECT_EQ(program.get("c.n"), "3");
-}
-
-// What EN switches off leaves its outputs and everything that it would change.
-TEST(Units, AreExecutedWithEnOnly) {
-  Translated program(
-      "VAR on, ok, done, off, ready : BOOL; i, r, s, k : INT; m : REAL; text : STRING;\n"
-      "a : ARRAY[0..3] OF INT; t : TON; blocks : ARRAY[0..1] OF Count; n : INT; END_VAR",
-      "r := raised(EN := on, v := 4, out => k, ENO => ok); s := ADD(EN := on, 1, 2) + 10;\n"
-      "m := SEL(ENO => done, EN := on, G := on, IN0 := 3, IN1 := 4);\n"
-      "text := CONCAT('a', LEFT(EN := on, 'bc', 1));\n"
-      "t(EN := on, IN := TRUE, PT := T#0s, Q => ready, NOT ENO => off);\n"
-      "blocks[i](EN := i < 2, n => n); a[0] := raised(EN := i < 4, v := a[i]);",
-      "VAR_GLOBAL calls : INT; END_VAR\n"
-      "FUNCTION raised : INT VAR_INPUT v : INT; END_VAR VAR_OUTPUT out : INT; END_VAR\n"
-      "calls := calls + 1; raised := v + 1; out := v; END_FUNCTION\n"
-      "FUNCTION_BLOCK Count VAR_OUTPUT n : INT; END_VAR n := n + 1; END_FUNCTION_BLOCK\n");
-  const auto shown = [&] {
-    EXPECT_EQ(program.scan(), "");
-    std::string text;
-    for (const char* name : {"r", "s", "k", "m", "text", "n", "a", "calls", "ok", "done", "off", "ready"})
-      text += program.get(name) + " ";
-    return text;
-  };
-  program.set("k", "7"), program.set("i", "9"), program.set("ok", "TRUE");
-  EXPECT_EQ(shown(), "0 10 7 0.0 'a' 0 [0, 0, 0, 0] 0 FALSE FALSE TRUE FALSE ");
-  program.set("on", "TRUE"), program.set("i", "1");
-  EXPECT_EQ(shown(), "5 13 4 4.0 'ab' 1 [1, 0, 0, 0] 2 TRUE TRUE FALSE TRUE ");
-}
-
-// A unit that declares EN and ENO does with them what its body says.
-TEST(Units, MayDeclareEnAndEnoThemselves) {
-  Translated program("VAR one : Own; list : ARRAY[0..1] OF Own; e, f : BOOL; END_VAR",
-                     "one(EN := FALSE, ENO => e); list[1](EN := TRUE, NOT ENO => f);",
-                     "FUNCTION_BLOCK Own VAR_INPUT EN : BOOL; END_VAR\n"
-                     "VAR_OUTPUT n : INT; ENO : BOOL; END_VAR\n"
-                     "n := n + 1; ENO := NOT EN; END_FUNCTION_BLOCK\n");
-  EXPECT_EQ(program.scan(), "");
-  EXPECT_EQ(program.get("one.n"), "1");
-  EXPECT_EQ(program.get("e"), "TRUE");
-  EXPECT_EQ(program.get("f"), "TRUE");
-}
-
-// The input is that of an R_TRIG or F_TRIG in the body; outside it is what the call has given.
-TEST(Units, InputsDetectEdges) {
-  Translated program("VAR x, given : BOOL; b : Count; n, m, both : INT; END_VAR",
-                     "b(up := x, down := x, n => n); b(m => m, both => both); given := b.up;",
-                     "FUNCTION_BLOCK Count\n"
-                     "VAR_INPUT up : BOOL R_EDGE; down : BOOL F_EDGE; END_VAR\n"
-                     "VAR_OUTPUT n, m, both : INT; END_VAR\n"
-                     "VAR up_rising : INT; END_VAR\n"
-                     "IF up THEN n := n + 1; up_rising := n; END_IF; IF down THEN m := m + 1; END_IF;\n"
-                     "IF up OR down THEN both := up_rising * 10 + m; END_IF;\n"
-                     "END_FUNCTION_BLOCK\n");
-  // Two calls in each scan: the second one has the input of the first, so no edge. F_TRIG has one at its
-  // first call.
-  std::string up, down;
-  for (const char c : std::string("0110100")) {
-    program.set("x", std::string(1, c));
-    EXPECT_EQ(program.scan(), "");
-    up += program.get("n") + " ", down += program.get("m") + " ";
-    EXPECT_EQ(program.get("given"), c == '1' ? "TRUE" : "FALSE");
-  }
-  EXPECT_EQ(up, "0 1 1 1 2 2 2 ");
-  EXPECT_EQ(down, "1 1 1 2 2 3 3 ");
-  EXPECT_EQ(program.get("both"), "23");
 }
 
 TEST(Units, GlobalsAreSharedDirectlyAndByExternal) {

@@ -12,6 +12,7 @@ export interface SourceLine {
 }
 
 const nameOf = /%[A-Za-z]+\d+(?:\.\d+)?|[A-Za-z_]\w*(?:\[[\w, ]*\])?(?:\.[A-Za-z_]\w*(?:\[[\w, ]*\])?)*/g;
+
 /** Behind the comment that begins at `start`; comments of one kind nest. */
 function commentEnd(source: string, start: number): number {
   const marks = source[start] === "(" ? /\(\*|\*\)/g : /\/\*|\*\//g;
@@ -26,7 +27,7 @@ function commentEnd(source: string, start: number): number {
 
 /** Comments and strings become blanks of the same length, so that lines stay lines. */
 function blanked(source: string): string {
-  const begin = /\(\*|\/\*|\/\/[^\n]*|'(?:\$.|[^'\n])*'/g;
+  const begin = /\(\*|\/\*|\/\/[^\n]*|'(?:\$.|[^'\n])*'|"(?:\$.|[^"\n])*"/g;
   let result = "";
   let done = 0;
   for (let found = begin.exec(source); found; found = begin.exec(source)) {

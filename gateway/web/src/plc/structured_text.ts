@@ -15,7 +15,7 @@ const instructions = words(`LD LDN ST STN S R AND ANDN OR ORN XOR XORN NOT ADD S
   R_TRIG F_TRIG MOVE JMP JMPC JMPCN RET RETC RETCN CAL CALC CALCN`);
 const types = words(`BOOL SINT INT DINT LINT USINT UINT UDINT ULINT REAL LREAL BYTE WORD DWORD LWORD TIME LTIME DATE TIME_OF_DAY TOD
   DATE_AND_TIME DT STRING WSTRING`);
-const blocks = words("SR RS R_TRIG F_TRIG CTU CTD CTUD TP TON TOF RTC PID PID_CONTROL SFC_STEP");
+const blocks = words("SR RS R_TRIG F_TRIG FALLING_EDGE CTU CTD CTUD TP TON TOF RTC PID PID_CONTROL SFC_STEP");
 
 export interface State {
   /** What ends the comments that are open, the same for all of them as comments of one kind nest; empty outside. */
