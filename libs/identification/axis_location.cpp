@@ -39,6 +39,24 @@ Eigen::VectorXd column_of(const truth::TrueGeometry& wrong, const geometry::Chai
   return column;
 }
 
+// Of the unknowns. Neighbouring readings of a turn share their error, because they are smoothed: the
+// covariance of the readings is that of the residuals over a tenth of them, with the weights of Newey and
+// West (1987).
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& design, const Eigen::MatrixXd& inverse,
+                              const Eigen::VectorXd& residual) {
+  const Eigen::Index rows = design.rows(), readings = rows / 3, lags = readings / 10;
+  const double freedom = static_cast<double>(std::max<Eigen::Index>(rows - 3 - design.cols(), 1));
+  Eigen::MatrixXd sum = residual.squaredNorm() / freedom * (design.transpose() * design);
+  for (Eigen::Index lag = 1; lag <= lags; ++lag) {
+    const Eigen::Index pairs = rows - 3 * lag;
+    const double weight = 1 - static_cast<double>(lag) / static_cast<double>(lags + 1);
+    const double shared = residual.head(pairs).dot(residual.tail(pairs)) / freedom;
+    const Eigen::MatrixXd both = design.topRows(pairs).transpose() * design.bottomRows(pairs);
+    sum += weight * shared * (both + both.transpose());
+  }
+  return inverse * sum * inverse;
+}
+
 }  // namespace
 
 AxisLocation locate_axis(const truth::MachineOutline& machine, const geometry::Chain& model, std::size_t axis,
@@ -107,12 +125,11 @@ AxisLocation locate_axis(const truth::MachineOutline& machine, const geometry::C
         rest.segment<3>(static_cast<Eigen::Index>(3 * i)) / static_cast<double>(readings.size());
   const Eigen::VectorXd residual = varying(rest);
   result.residual = residual.norm() / std::sqrt(static_cast<double>(rows));
-  const double freedom = static_cast<double>(std::max<Eigen::Index>(rows - 3 - x.size(), 1));
-  const double variance = residual.squaredNorm() / freedom;
+  const Eigen::MatrixXd covariance = covariance_of(matrix, inverse, residual);
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     const auto& unknown = unknowns[static_cast<std::size_t>(k)];
     result.errors.push_back(
-        {unknown.name, x[k] / lengths[k], std::sqrt(variance * inverse(k, k)) / lengths[k], unknown.angle});
+        {unknown.name, x[k] / lengths[k], std::sqrt(covariance(k, k)) / lengths[k], unknown.angle});
   }
   return result;
 }
