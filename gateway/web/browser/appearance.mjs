@@ -75,6 +75,8 @@ async function still(browser, url, code, { size }) {
   pretend(stream, { plc: { emergency_stop: true } });
   await page.locator("[data-test=estop-engaged]").waitFor();
   await looks("emergency stop");
+  const edge = await page.locator("[data-test=recover]").evaluate((key) => key.closest(".attention").getBoundingClientRect().right - key.getBoundingClientRect().right);
+  check(`${where}: the key that recovers is at the edge, alarm or not: ${edge} px from it`, edge < 20 || size[0] < 720);
   if (code === "de") {
     const text = "Z: following error 1.25 mm, at most 1 mm";
     const alarm = { instance: 3, number: 111, part: 2, severity: "EMERGENCY", reaction: "AXIS_STOP", source: "drive", text, cycle: 1, occurrences: 1, since: "2000-01-01T00:00:00Z" };
