@@ -80,8 +80,17 @@ class Evaluation {
   }
 
   std::size_t row_of(const Angles& angles) const {
+    // Both ends of a whole turn may be touched: each is its own row.
+    const auto apart = [&](std::size_t i) {
+      double sum = 0;
+      for (std::size_t k = 0; k < angles.size(); ++k) sum += std::abs(measured_[i].angles[k] - angles[k]);
+      return sum;
+    };
+    std::size_t row = measured_.size();
     for (std::size_t i = 0; i < measured_.size(); ++i)
-      if (same_pose(measured_[i].angles, angles)) return i;
+      if (same_pose(measured_[i].angles, angles) && (row == measured_.size() || apart(i) < apart(row)))
+        row = i;
+    if (row < measured_.size()) return row;
     throw std::runtime_error("pose " + pose_name(angles, machine_.model) + " is missing among the touches");
   }
 

@@ -50,6 +50,10 @@ const offScreen = (page) =>
 async function still(browser, url, code, { size }) {
   const page = await openPage(browser, null, { size, locale: languages[code].locale });
   const stream = await interceptStream(page);
+  const program = `${"long_".repeat(12)}a.nc`;  // 64 letters, as many as a name has
+  const path = { x: [], y: [], z: [], line: [], rapid: [], seconds: [], tolerance: 0 };
+  const planned = { program, revision: 1, channel: 0, complete: false, seconds: 41_025, moves: 1, lines: { line: [1], begin: [0] }, path };
+  await page.route(/long_.*\/plan/, (route) => route.fulfill({ json: planned }));
   await page.goto(url);
   await page.waitForSelector(".positions");
   const where = `${code} ${size.join("x")}`;
@@ -61,15 +65,18 @@ async function still(browser, url, code, { size }) {
     const cut = (await overflowing(page)).filter((part) => /^(HEADER|DIV\.facts)/.test(part));
     check(`${where} ${what}: the state bar holds it ${cut}`, cut.length === 0);
   };
-  const program = `${"long_".repeat(12)}a.nc`;  // 64 letters, as many as a name has
+  pretend(stream, { run_times: { 0: { ticks: 45_296_000, partial: true } } });
   for (const state of ["IDLE", "RUNNING", "HOLDING", "HELD", "WAITING", "INTERRUPTED"]) {
     pretend(stream, { channels: { 0: { state, mode: "AUTO", program, line: 123456, lines_total: 1234567 } } });
     await page.locator(`[data-test=state][data-state=${state}]`).waitFor();
+    for (const time of ["elapsed", "remaining"]) await page.locator(`[data-test=${time}]`).waitFor();
     await looks(state);
   }
   pretend(stream, { plc: { emergency_stop: true } });
   await page.locator("[data-test=estop-engaged]").waitFor();
   await looks("emergency stop");
+  const edge = await page.locator("[data-test=recover]").evaluate((key) => key.closest(".attention").getBoundingClientRect().right - key.getBoundingClientRect().right);
+  check(`${where}: the key that recovers is at the edge, alarm or not: ${edge} px from it`, edge < 20 || size[0] < 720);
   if (code === "de") {
     const text = "Z: following error 1.25 mm, at most 1 mm";
     const alarm = { instance: 3, number: 111, part: 2, severity: "EMERGENCY", reaction: "AXIS_STOP", source: "drive", text, cycle: 1, occurrences: 1, since: "2000-01-01T00:00:00Z" };

@@ -136,6 +136,8 @@ async function standpoints(browser, url) {
   const first = await standpoint();
   await look(page, "Whole");
   check("the view opens with the whole machine and the path", same(await standpoint(), first));
+  await picture.click();
+  check("a click chooses nothing", !(await page.evaluate(() => localStorage.getItem("trunnion.scene"))));
   await look(page, "Front");
   const front = await standpoint();
   await picture.hover();

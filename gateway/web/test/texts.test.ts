@@ -53,5 +53,6 @@ test("an alarm says in the operator's language what it is, and keeps the numbers
   expect(wording(alarm, languages.en)).toEqual({ text: alarm.text, detail: "" });
   expect(wording(alarm, languages.de)).toEqual({ text: "Der Schleppfehler überschreitet seine Grenze", detail: alarm.text });
   expect(wording({ ...alarm, text: "The following error exceeds its limit" }, languages.zh)).toEqual({ text: "跟随误差超过限值", detail: "" });
+  expect(wording({ number: 151, part: 0, text: "Werkstück wenden" }, languages.de)).toEqual({ text: "Werkstück wenden", detail: "" });
   expect(wording({ number: 1107, part: 0, text: "A.NC:1:2: G7" }, languages.de)).toEqual({ text: "A.NC:1:2: G7", detail: "" });
 });

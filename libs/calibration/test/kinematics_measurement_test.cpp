@@ -379,6 +379,16 @@ TEST(KinematicsMeasurement, TouchesReadFromTheirTextGiveTheSameResult) {
               testing::HasSubstr("begins at the initial pose A0 C0"));
 }
 
+TEST(KinematicsMeasurement, AWholeTurnHasAPoseAtBothItsEnds) {
+  const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
+  auto in = inputs_of(machine);
+  for (auto& range : in.axes)
+    if (range.angle == 2) range.start = -180, range.end = 180, range.points = 5;
+  const auto result = machine.measure(in, {}, sphere);
+  const auto& c = result.axes[in.axes[0].angle == 2 ? 0 : 1];
+  EXPECT_NE(c.rows.front(), c.rows.back());
+}
+
 TEST(ChainChange, OnlyChangedComponentsBecomeParameters) {
   auto before = geometry::ac_table(), after = before;
   after.table_1->offset.y() += 0.01;

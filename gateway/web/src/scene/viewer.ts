@@ -142,10 +142,15 @@ export class Viewer {
     this.controls.zoomToCursor = true;
     this.controls.listenToKeyEvents(canvas);
     this.camera.up.set(0, 0, 1);
-    this.controls.addEventListener("start", () => this.turn(true));
+    let before = "";
+    this.controls.addEventListener("start", () => {
+      before = JSON.stringify(this.standpoint);
+      this.turn(true);
+    });
     this.controls.addEventListener("end", () => {
       this.turn(false);
-      this.moved();
+      // A click, after which the arrow keys move the picture, has not moved it yet.
+      if (JSON.stringify(this.standpoint) !== before) this.moved();
     });
     this.controls.addEventListener("change", () => {
       if (this.camera.zoom > 1.4 * this.simplifiedFor || this.camera.zoom < this.simplifiedFor / 2) this.simplify();

@@ -24,11 +24,13 @@ export interface Wording {
   detail: string;
 }
 
+/** Messages of the machine's PLC and of a program: whoever wrote them chose the language. */
+const messages: readonly number[] = [136, 137, 138, 151];
+
 export function wording(alarm: Pick<Alarm, "number" | "part" | "text"> & { since?: string }, text: Texts): Wording {
   const own = alarmText(alarm);
   const one = alarmCatalogue[alarm.number];
   const translated = text.languageCode === "en" ? undefined : one?.[text.languageCode]?.text;
-  // A message of the machine's PLC has a translation of its own.
-  if (!translated || own !== alarm.text) return { text: own, detail: "" };
+  if (!translated || messages.includes(alarm.number)) return { text: own, detail: "" };
   return { text: translated, detail: own === one?.en?.text ? "" : own };
 }

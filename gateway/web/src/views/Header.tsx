@@ -103,8 +103,8 @@ export function Header() {
         <div class="machine-name">
           <strong data-test="machine" title={cluster?.machine}>{name}</strong>
           <ClusterTag />
-          <Operator />
           {cluster?.virtual_time && <span class="tag note">{t.virtualTime}</span>}
+          <Operator />
         </div>
         <ChannelTabs />
         {one && (
