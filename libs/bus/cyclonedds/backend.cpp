@@ -23,6 +23,7 @@
 #include "bus/endpoint_log.hpp"
 #include "bus/security.hpp"
 #include "loopback_bind.hpp"
+#include "origin.hpp"
 
 #ifndef TRUNNION_CYCLONE_PLUGINS
 #define TRUNNION_CYCLONE_PLUGINS ""
@@ -458,6 +459,7 @@ class CycloneBackend : public Backend {
     for (const auto& [handle, writer] : discovered_) writers.push_back(writer);
     return true;
   }
+  WriterOrigin origin_of(const WriterId& writer) override { return cyclone_origin(participant_, writer); }
 
  private:
   // The handle of a publication is the same in this topic and with the samples it has written.

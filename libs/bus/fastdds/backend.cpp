@@ -238,6 +238,7 @@ class FastBackend : public Backend {
     return std::make_unique<Reader>(subscriber_, topic(description), qos, description.keyed, signal);
   }
   bool discover(std::vector<DiscoveredWriter>& writers) override { return discovery_.take_changes(writers); }
+  WriterOrigin origin_of(const WriterId& writer) override { return discovery_.origin_of(writer); }
 
  private:
   DdsTopic* topic(const TopicDescription& description) {
