@@ -4,9 +4,9 @@
 /** What an alarm says, its usual cause and what the operator does, by its number and the language. */
 export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { text: string; cause: string; remedy: string }>>>> = {
   100: {
-    en: { text: "A service has ended or does not respond", cause: "The process has ended, was killed or is blocked, or its host or network is lost", remedy: "Wait for the restart by the launcher, then reset the alarm; if it comes back, read the service's line in Diagnosis and its log" },
-    zh: { text: "某个服务已结束或没有应答", cause: "进程已结束、被终止或被阻塞，或其主机或网络中断", remedy: "等待启动器重新启动该服务，然后复位报警；若再次出现，请查看诊断中该服务的一行及其日志" },
-    de: { text: "Ein Dienst ist beendet oder antwortet nicht", cause: "Der Prozess ist beendet, wurde abgebrochen oder ist blockiert, oder sein Rechner oder Netz ist ausgefallen", remedy: "Auf den Neustart durch den Launcher warten, dann den Alarm zurücksetzen; kommt er wieder, die Zeile des Dienstes in Diagnose und sein Protokoll lesen" },
+    en: { text: "A service has ended or does not respond", cause: "The process has ended, was killed or is blocked, or its host or network is lost", remedy: "Wait for the restart by the launcher, then reset the alarm; if it comes back, read the service's line in Diagnosis and its log; when the hosts of a secured machine stay apart although the network is whole, run trunnion down and trunnion up on every host" },
+    zh: { text: "某个服务已结束或没有应答", cause: "进程已结束、被终止或被阻塞，或其主机或网络中断", remedy: "等待启动器重新启动该服务，然后复位报警；若再次出现，请查看诊断中该服务的一行及其日志；若网络已恢复而加密机床的各主机仍互不相通，请在每台主机上执行 trunnion down 和 trunnion up" },
+    de: { text: "Ein Dienst ist beendet oder antwortet nicht", cause: "Der Prozess ist beendet, wurde abgebrochen oder ist blockiert, oder sein Rechner oder Netz ist ausgefallen", remedy: "Auf den Neustart durch den Launcher warten, dann den Alarm zurücksetzen; kommt er wieder, die Zeile des Dienstes in Diagnose und sein Protokoll lesen; finden die Rechner einer gesicherten Maschine trotz heilem Netz nicht zueinander, auf jedem Rechner trunnion down und trunnion up ausführen" },
   },
   101: {
     en: { text: "A service was built with a different contract", cause: "Services of different versions run in one cluster", remedy: "Install one version on every host, or replace the service by one with the same contract" },
