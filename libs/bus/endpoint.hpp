@@ -12,6 +12,7 @@
 
 #include "bus/codec.hpp"
 #include "bus/topic.hpp"
+#include "bus/writer_origin.hpp"
 
 namespace trunnion::bus {
 
@@ -128,6 +129,8 @@ class Backend {
                                             Signal* signal) = 0;
   /// False when nothing has changed since the last call. Otherwise `writers` are all that are known now.
   virtual bool discover(std::vector<DiscoveredWriter>& writers) = 0;
+  /// Where the writer of a sample is (SampleInfo::writer): what its process has told of itself.
+  virtual WriterOrigin origin_of(const WriterId& writer) = 0;
 };
 
 /// Throws std::runtime_error with the vendor's reason.

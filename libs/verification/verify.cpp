@@ -252,12 +252,17 @@ VerifyResult verify(const VerifyOptions& options) {
                                                : verify_service(options, recording);
     result.parameters = parameters;
     result.cut_off = recording.problem;
+    if (!result.equal())
+      if (const auto cut = interrupted_network(recording); !cut.empty())
+        result.problem += (result.problem.empty() ? "" : "; ") + cut;
     return result;
   } catch (const NothingToVerify&) {
     throw;
   } catch (const std::runtime_error& error) {
-    if (recording.complete) throw;
-    throw std::runtime_error(std::string(error.what()) + "; " + recording.problem);
+    const auto cut = interrupted_network(recording);
+    if (recording.complete && cut.empty()) throw;
+    throw std::runtime_error(error.what() + (cut.empty() ? "" : "; " + cut) +
+                             (recording.complete ? "" : "; " + recording.problem));
   }
 }
 

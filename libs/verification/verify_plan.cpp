@@ -9,7 +9,9 @@
 #include <stdexcept>
 
 #include "bus/codec.hpp"
+#include "cluster/instances.hpp"
 #include "contracts/topics.hpp"
+#include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/parameters.hpp"
 #include "machine/services.hpp"
@@ -359,6 +361,20 @@ std::string missing_request(const StoredRecording& recording) {
     if (!recorded.contains({reply.client, reply.number}))
       return "the recording has the reply to request " + std::to_string(reply.number) + " of client " +
              std::to_string(reply.client) + ", but not the request: record again";
+  }
+  return "";
+}
+
+std::string interrupted_network(const StoredRecording& recording) {
+  idl::service::Alarm alarm;
+  for (const auto& message : recording.messages) {
+    if (message.topic->handle != "alarm" || !bus::decode(message.cdr, alarm) || !alarm.active) continue;
+    // Of a launcher's number: a host, and not one of its services.
+    if (alarm.number != alarm::service_lost.number ||
+        cluster::place_of(alarm.part) < cluster::launcher_instance)
+      continue;
+    return "the network was interrupted (" + alarm.text.substr(0, alarm.text.find(':')) +
+           "): when the messages of that time arrived is not in the recording";
   }
   return "";
 }

@@ -71,6 +71,11 @@ std::string missing_feedback(const VerifyPlan& plan);
 /// line; empty when it has them all. Requests that were answered before the recording began do not count.
 std::string missing_request(const StoredRecording& recording);
 
+/// Why a recording of a machine on several hosts cannot be verified where its network was interrupted, in one
+/// line with the host that was silent; empty when none was. Messages have the time at which they were
+/// written: when they arrived behind an interruption, and in what order, is not recorded.
+std::string interrupted_network(const StoredRecording& recording);
+
 /// Alarms that `service` raises in `messages`: number, part and text of the first.
 std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> raised_alarms(
     const std::vector<StoredMessage>& messages, const std::string& service);

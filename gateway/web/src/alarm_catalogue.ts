@@ -4,9 +4,9 @@
 /** What an alarm says, its usual cause and what the operator does, by its number and the language. */
 export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { text: string; cause: string; remedy: string }>>>> = {
   100: {
-    en: { text: "A service has ended or does not respond", cause: "The process has ended, was killed or is blocked, or its host or network is lost", remedy: "Wait for the restart by the launcher, then reset the alarm; if it comes back, read the service's line in Diagnosis and its log" },
-    zh: { text: "某个服务已结束或没有应答", cause: "进程已结束、被终止或被阻塞，或其主机或网络中断", remedy: "等待启动器重新启动该服务，然后复位报警；若再次出现，请查看诊断中该服务的一行及其日志" },
-    de: { text: "Ein Dienst ist beendet oder antwortet nicht", cause: "Der Prozess ist beendet, wurde abgebrochen oder ist blockiert, oder sein Rechner oder Netz ist ausgefallen", remedy: "Auf den Neustart durch den Launcher warten, dann den Alarm zurücksetzen; kommt er wieder, die Zeile des Dienstes in Diagnose und sein Protokoll lesen" },
+    en: { text: "A service has ended or does not respond", cause: "The process has ended, was killed or is blocked, or its host or network is lost", remedy: "Wait for the restart by the launcher, then reset the alarm; if it comes back, read the service's line in Diagnosis and its log; when the hosts of a secured machine stay apart although the network is whole, run trunnion down and trunnion up on every host" },
+    zh: { text: "某个服务已结束或没有应答", cause: "进程已结束、被终止或被阻塞，或其主机或网络中断", remedy: "等待启动器重新启动该服务，然后复位报警；若再次出现，请查看诊断中该服务的一行及其日志；若网络已恢复而加密机床的各主机仍互不相通，请在每台主机上执行 trunnion down 和 trunnion up" },
+    de: { text: "Ein Dienst ist beendet oder antwortet nicht", cause: "Der Prozess ist beendet, wurde abgebrochen oder ist blockiert, oder sein Rechner oder Netz ist ausgefallen", remedy: "Auf den Neustart durch den Launcher warten, dann den Alarm zurücksetzen; kommt er wieder, die Zeile des Dienstes in Diagnose und sein Protokoll lesen; finden die Rechner einer gesicherten Maschine trotz heilem Netz nicht zueinander, auf jedem Rechner trunnion down und trunnion up ausführen" },
   },
   101: {
     en: { text: "A service was built with a different contract", cause: "Services of different versions run in one cluster", remedy: "Install one version on every host, or replace the service by one with the same contract" },
@@ -34,9 +34,9 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { t
     de: { text: "Ein Dienst endet nach seinem Start immer wieder", cause: "Der Dienst findet bei jedem Start einen Fehler, zum Beispiel in seiner Konfiguration", remedy: "Die Zeile des Dienstes in Diagnose und sein Protokoll lesen, die Ursache beheben, dann den Alarm zurücksetzen" },
   },
   106: {
-    en: { text: "A service refused messages on the bus", cause: "A process writes a topic with a value that the field cannot have, or of another format; nothing of such a message takes effect", remedy: "Find the process: what else writes the topic in this DDS domain (docs/topics.md has the writers that belong to a machine); use a secured cluster on a network" },
-    zh: { text: "某个服务拒绝了总线上的消息", cause: "某个进程向主题写入了字段不可能有的值，或格式不同；这样的消息不会生效", remedy: "查找在此 DDS 域中还有谁写该主题（docs/topics.md 列出机床的写入者）；在网络上使用加密的集群" },
-    de: { text: "Ein Dienst hat Nachrichten auf dem Bus abgelehnt", cause: "Ein Prozess schreibt ein Topic mit einem Wert, den das Feld nicht haben kann, oder in einem anderen Format; von einer solchen Nachricht wird nichts wirksam", remedy: "Den Prozess suchen, der das Topic in dieser DDS-Domäne sonst noch schreibt (docs/topics.md nennt die Schreiber einer Maschine); im Netz ein gesichertes Cluster verwenden" },
+    en: { text: "A service refused messages on the bus", cause: "A process writes a topic with a value that the field cannot have, or of another format; nothing of such a message takes effect", remedy: "The alarm names the topic and its writer, as far as its process publishes where it is: end the process on its host (`ss -ulpn` shows the process of a port), or give the machine another domain; docs/topics.md has the writers that belong to a machine; use a secured cluster on a network" },
+    zh: { text: "某个服务拒绝了总线上的消息", cause: "某个进程向主题写入了字段不可能有的值，或格式不同；这样的消息不会生效", remedy: "报警给出主题以及写入者（以该进程公布的信息为限）：在其主机上结束该进程（`ss -ulpn` 显示端口所属的进程），或为机床设置另一个域；docs/topics.md 列出机床的写入者；在网络上使用加密的集群" },
+    de: { text: "Ein Dienst hat Nachrichten auf dem Bus abgelehnt", cause: "Ein Prozess schreibt ein Topic mit einem Wert, den das Feld nicht haben kann, oder in einem anderen Format; von einer solchen Nachricht wird nichts wirksam", remedy: "Der Alarm nennt das Topic und den Schreiber, soweit dessen Prozess sich zu erkennen gibt: den Prozess auf seinem Rechner beenden (`ss -ulpn` zeigt den Prozess zu einem Port), oder der Maschine eine andere Domäne geben; docs/topics.md nennt die Schreiber einer Maschine; im Netz ein gesichertes Cluster verwenden" },
   },
   107: {
     en: { text: "A host was started with a different machine.yaml", cause: "The files of the machine differ between the hosts", remedy: "Copy the same machine directory to every host and start the cluster again" },

@@ -23,6 +23,7 @@
 #include "bus/endpoint_log.hpp"
 #include "bus/security.hpp"
 #include "loopback_bind.hpp"
+#include "origin.hpp"
 
 #ifndef TRUNNION_CYCLONE_PLUGINS
 #define TRUNNION_CYCLONE_PLUGINS ""
@@ -313,7 +314,8 @@ std::string configuration(const NetworkSettings& network) {
          "MaxAutoParticipantIndex><Peers>";
   std::istringstream peers(network.multicast ? "" : network.peers);
   for (std::string peer; std::getline(peers, peer, ',');) xml << "<Peer address=\"" << peer << "\"/>";
-  xml << "</Peers><SPDPInterval>0.5s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery>"
+  xml << "</Peers><SPDPInterval>0.5s</SPDPInterval><LeaseDuration>" << lease_seconds(network)
+      << "s</LeaseDuration></Discovery>"
          // A writer never waits for a reader that is slow or dead: its bounded history is what it may lose.
          // A packet that a full socket buffer dropped is asked for again within milliseconds, before it is
          // overwritten. The interval between heartbeats doubles while nobody answers; its bound is what a cut
@@ -458,6 +460,7 @@ class CycloneBackend : public Backend {
     for (const auto& [handle, writer] : discovered_) writers.push_back(writer);
     return true;
   }
+  WriterOrigin origin_of(const WriterId& writer) override { return cyclone_origin(participant_, writer); }
 
  private:
   // The handle of a publication is the same in this topic and with the samples it has written.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bus/writer_origin.hpp"
+
+#include <gtest/gtest.h>
+
+namespace trunnion::bus {
+namespace {
+
+TEST(WriterOrigin, IsReadFromThePropertiesOfEitherVendor) {
+  WriterOrigin cyclone;
+  take_property(cyclone, "__Hostname", "mill");
+  take_property(cyclone, "__ProcessName", "trunnion-plc");
+  take_property(cyclone, "__Pid", "4711");
+  take_property(cyclone, "__NetworkAddresses", "udp/10.77.0.3:7413@2,udp/10.78.0.3:7413@3");
+  take_property(cyclone, "__Other", "no");
+  EXPECT_EQ(to_text(cyclone), "process 4711 (trunnion-plc) on host mill, 10.77.0.3:7413");
+  WriterOrigin fast;
+  take_property(fast, "fastdds.physical_data.host", "mill");
+  take_property(fast, "fastdds.physical_data.process", "4712");
+  fast.identity = "gateway";
+  EXPECT_EQ(to_text(fast), "process 4712 on host mill, which says it is gateway");
+}
+
+TEST(WriterOrigin, OfAProcessThatTellsNothingIsItsGuid) {
+  const std::uint8_t guid[] = {1, 15, 0xab, 0, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 1, 2};
+  WriterOrigin origin;
+  EXPECT_EQ(to_text(origin), "a writer that has left");
+  origin.participant = prefix_text(guid);
+  EXPECT_EQ(to_text(origin), "a process, GUID prefix 010fab0005060708090a0b0c");
+  origin.address = "10.77.0.9:7410";
+  EXPECT_EQ(to_text(origin), "a process, 10.77.0.9:7410, GUID prefix 010fab0005060708090a0b0c");
+}
+
+TEST(WriterOrigin, OfAStrangerIsShortAndPrintable) {
+  WriterOrigin origin;
+  origin.pid = "1\n2", origin.host = std::string(500, 'h'), origin.process = "\xff";
+  EXPECT_EQ(to_text(origin), "process 1?2 (?) on host " + std::string(40, 'h'));
+}
+
+}  // namespace
+}  // namespace trunnion::bus
