@@ -42,7 +42,13 @@ MeasurementMoves::MeasurementMoves(collision::MachineBodies bodies, const std::v
       for (const auto& tool : bodies.set.bodies)
         if (tool.tool && std::holds_alternative<collision::Sphere>(tool.shape))
           touching.allowed.emplace_back(tool.name, body.name);
-  moving_.emplace(bodies.links, std::move(bodies.set));
+  moving_.emplace(bodies.links, bodies.set);
+  // On the way to a pose the sphere may be anywhere in the confidence range.
+  for (auto& body : bodies.set.bodies)
+    if (auto* sphere = std::get_if<collision::Sphere>(&body.shape);
+        sphere != nullptr && body.link == bodies.links.workpiece())
+      sphere->radius += in.confidence_range;
+  uncertain_.emplace(bodies.links, std::move(bodies.set));
   touching_.emplace(bodies.links, std::move(touching));
 }
 
@@ -57,7 +63,8 @@ std::string MeasurementMoves::fault_at(const PlannedPose& pose) const {
   auto at = approach(pose);
   if (const auto contact = moving_->first_contact(at, at))
     return moving_->text_of(contact->pair) + " over the sphere";
-  const double reach = inputs_.measuring_path;
+  // As far as the expected touch and a quarter of the measuring path beyond.
+  const double reach = standoff(inputs_) + inputs_.measuring_path / 4;
   std::size_t touches = 0;
   const auto meets = [&](const Vec3& to) {
     auto next = at;
@@ -69,8 +76,7 @@ std::string MeasurementMoves::fault_at(const PlannedPose& pose) const {
   for (const auto& to : measuring_steps(inputs_, measured_, pose, centre(pose))) {
     if (auto fault = meets(to.to); !fault.empty()) return fault;
     if (!to.touch) continue;
-    // As far as the expected touch and a quarter of the measuring path beyond.
-    if (auto fault = meets(to.to - 1.25 * reach * to.direction); !fault.empty()) return fault;
+    if (auto fault = meets(to.to - reach * to.direction); !fault.empty()) return fault;
     if (auto fault = meets(to.to); !fault.empty()) return fault;
     ++touches;
   }
@@ -78,7 +84,11 @@ std::string MeasurementMoves::fault_at(const PlannedPose& pose) const {
 }
 
 Way MeasurementMoves::way(const AxisPosition& from, const AxisPosition& to) const {
-  auto found = collision::find_way(*moving_, travel_, from, nearest_turns(measured_.outline, from, to));
+  // The probe may stand nearer already, as CYCLE9960 wants it over the pole, and the centre that was measured
+  // last may lead it nearer to the expected one.
+  const auto target = nearest_turns(measured_.outline, from, to);
+  const bool near = uncertain_->first_contact(from, from) || uncertain_->first_contact(target, target);
+  auto found = collision::find_way(near ? *moving_ : *uncertain_, travel_, from, target);
   if (const auto* fault = std::get_if<std::string>(&found)) throw std::runtime_error(*fault);
   return std::get<std::vector<collision::AxisPosition>>(std::move(found));
 }

@@ -39,7 +39,7 @@ class MeasurementMoves {
   const MeasurementInputs& inputs_;
   const MeasuredMachine& measured_;
   collision::Travel travel_;
-  std::optional<collision::CollisionModel> moving_, touching_;
+  std::optional<collision::CollisionModel> moving_, uncertain_, touching_;
   geometry::Chain chain_;
 };
 
