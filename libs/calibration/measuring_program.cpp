@@ -14,9 +14,10 @@ namespace {
 
 constexpr std::uint32_t first_variable = 52150, serial_variable = 52999;
 using canonical::axis_letters;
-constexpr double longest_turn = 150;  // deg, in one line; half a turn has no shorter way
-constexpr double arc_step = 10;       // deg: an arc around the sphere is a polygon
-constexpr double second_retract = 1;  // mm, between first and second touch
+constexpr double longest_turn = 150;          // deg, in one line; half a turn has no shorter way
+constexpr double arc_step = 10;               // deg: an arc around the sphere is a polygon
+constexpr double second_retract = 1;          // mm, between first and second touch
+constexpr double largest_inverse_time = 1e6;  // 1/min: a way of the last digits only
 
 template <class... Values>
 std::string words(const char* format, Values... values) {
@@ -77,7 +78,7 @@ class Writer {
       for (std::size_t i = 0; i < next.size(); ++i)
         if (present_[i])
           text_ += words(" %c%.6f", axis_letters[i], canonical::rotary_word(ways_[i], next[i], last[i]));
-      text_ += words(" F%.9g\n", parts / minutes);
+      text_ += words(" F%.6f\n", std::min(parts / minutes, largest_inverse_time));
       last = next;
     }
   }

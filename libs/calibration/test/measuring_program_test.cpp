@@ -95,12 +95,10 @@ TEST(MeasuringProgramText, TurnsWithTheFeedOfTheRotaryAxesAlsoWhereItMoves) {
   const TrueMachine machine(geometry::ac_table(), geometry::ac_table());
   auto in = default_inputs(machine.measured);
   in.rotary_feed = 360, in.positioning_feed = 2000;
-  // 100 mm with 90 degrees, 400 mm with 9 degrees, 30 degrees alone, 200 mm alone.
-  const Way way{{0, 0, -50, 0, 0, 0},
-                {100, 0, -50, 0, 0, 90},
-                {100, 400, -50, 9, 0, 90},
-                {100, 400, -50, 9, 0, 60},
-                {100, 400, -250, 9, 0, 60}};
+  // 100 mm with 90 degrees, 400 mm with 9 degrees, 30 degrees alone, 200 mm alone, and a last digit, whose
+  // time would be too short for a word.
+  const Way way{{0, 0, -50, 0, 0, 0},      {100, 0, -50, 0, 0, 90},    {100, 400, -50, 9, 0, 90},
+                {100, 400, -50, 9, 0, 60}, {100, 400, -250, 9, 0, 60}, {100, 400, -250 + 1e-12, 9, 0, 60}};
   std::istringstream lines(positioning_program(in, machine.measured, way, {7}));
   std::vector<double> feeds;
   bool inverse_time = false;
@@ -113,8 +111,8 @@ TEST(MeasuringProgramText, TurnsWithTheFeedOfTheRotaryAxesAlsoWhereItMoves) {
     feeds.push_back(feed);
   }
   EXPECT_FALSE(inverse_time) << "the program ends in G94";
-  ASSERT_EQ(feeds.size(), 4u);
-  const double expected[] = {360 / 90.0, 2000 / 400.0, 360 / 30.0, 2000 / 200.0};
+  ASSERT_EQ(feeds.size(), 5u);
+  const double expected[] = {360 / 90.0, 2000 / 400.0, 360 / 30.0, 2000 / 200.0, 1e6};
   for (std::size_t i = 0; i < feeds.size(); ++i) EXPECT_NEAR(feeds[i], expected[i], 1e-6) << i;
 }
 
@@ -143,7 +141,7 @@ TEST(MeasuringProgramText, AnAxisThatCountsModulo360TurnsAsPlanned) {
   const auto turns = [](RotaryWay way, double from, double to) {
     TrueMachine machine(geometry::ac_table(), geometry::ac_table());
     machine.measured.outline.axes[5] = {true, -1e12, 1e12, way};
-    AxisPosition start{0, 0, 0, 0, 0, from}, end{0, 0, 0, 0, 0, to};
+    AxisPosition start{0, 0, 0, 0, 0, from}, end{1, 0, 0, 0, 0, to};
     const auto text =
         positioning_program(default_inputs(machine.measured), machine.measured, {start, end}, {7});
     return turns_of(text, way, from);
