@@ -11,6 +11,30 @@ namespace {
 
 constexpr double step = 5;          // deg, of a proposed range
 constexpr double least_range = 10;  // deg
+constexpr double margin = 0.02;     // mm: a body is in contact before its clearance is used up
+
+// Where a touch ends, a quarter of the measuring path behind the expected surface, the stylus is nearer to
+// the sphere than the surface of the ball was by what the ball is thicker.
+void check_measuring_path(const collision::BodySet& set, const MeasurementInputs& in) {
+  double ball = 0, stylus = 0;
+  for (const auto& body : set.bodies) {
+    if (!body.tool) continue;
+    if (const auto* sphere = std::get_if<collision::Sphere>(&body.shape)) ball = sphere->radius;
+    const auto* cylinder = std::get_if<collision::Cylinder>(&body.shape);
+    if (cylinder != nullptr && body.name == collision::stylus_name) stylus = cylinder->radius;
+  }
+  if (ball == 0 || stylus == 0) return;
+  // path / 4 + min(path / 4, clearance) <= spare
+  const double spare = ball - stylus - margin;
+  const double longest = std::max({0.0, 2 * spare, 4 * (spare - set.clearance)});
+  if (in.measuring_path <= longest) return;
+  throw std::runtime_error("measuring_path_mm " + text::quantity(in.measuring_path, "mm") + " is above " +
+                           text::quantity(longest, "mm") + ": with a ball of " +
+                           text::quantity(2 * ball, "mm") + " the stylus of " +
+                           text::quantity(2 * stylus, "mm") +
+                           " would come too near to the sphere at the end of a touch; shorten the measuring "
+                           "path or use a larger ball");
+}
 
 void add_probe_and_sphere(collision::MachineBodies& bodies, const std::vector<truth::Solid>& solids,
                           const std::optional<truth::TouchProbeTruth>& given, const MeasurementInputs& in) {
@@ -22,6 +46,7 @@ void add_probe_and_sphere(collision::MachineBodies& bodies, const std::vector<tr
   if (std::none_of(solids.begin(), solids.end(),
                    [](const auto& s) { return std::holds_alternative<truth::SphereGauge>(s); }))
     collision::add_solids(bodies.links, {truth::SphereGauge{in.sphere, in.sphere_diameter / 2}}, bodies.set);
+  check_measuring_path(bodies.set, in);
   // Over the sphere the ball is one measuring path from it, less what the sphere is beside its place.
   bodies.set.clearance = std::min(bodies.set.clearance, in.measuring_path / 4);
 }
