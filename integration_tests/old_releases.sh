@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# old_releases.sh TRUNNION MACHINES PYTHON: what releases before this one have left (old_releases/README.md) is read, or refused in
+# old_releases.sh TRUNNION PYTHON: what releases before this one have left (old_releases/README.md) is read, or refused in
 # one line that names the version and what to do.
 set -euo pipefail
-trunnion=$1 python=$3
+trunnion=$1 python=$2
 old=$(dirname "$0")/old_releases/0.3.0
 . "$(dirname "$0")/cluster.sh"
-cp -rL "$2/four-axis" "$work/machine"
+cp -r "$old/machine" "$work/machine"
 refused() { # TEXT COMMAND...: status 1 and this in the one line
   local text=$1 status=0
   shift
@@ -55,6 +55,7 @@ cmp "$old/state/programs/part.nc" "$work/part.nc" || fail "the program differs"
 "$trunnion" mdi "#501=#500*2" --domain "$domain" > "$work/out" 2>&1 || fail "$(cat "$work/out")"
 is_doubled() { [ "$("$trunnion" variables 501 --domain "$domain")" = "#501 5" ]; }
 wait_until "#500 is kept" is_doubled
+"$trunnion" mdi "G0 X10 Y5" --domain "$domain" > "$work/out" 2>&1 || fail "the PLC of that release: $(cat "$work/out")"
 
 echo "What changes is written in the format of today, and read again"
 "$trunnion" param set 100034 22000 --domain "$domain" > "$work/out"
