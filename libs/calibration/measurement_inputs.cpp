@@ -51,6 +51,11 @@ std::string frame_fault(const geometry::Mat3& directions) {
 
 }  // namespace
 
+double standoff(const MeasurementInputs& in) {
+  constexpr double beyond_confidence = 1;  // mm
+  return std::max(in.measuring_path, in.confidence_range + beyond_confidence);
+}
+
 MeasuredMachine measured_machine(const std::string& name, const machine::Parameters& delivered,
                                  const machine::Parameters& active, std::uint16_t channel) {
   MeasuredMachine measured;

@@ -85,6 +85,10 @@ struct MeasurementInputs {
   bool transformation_active = false;  ///< it may be active; otherwise it is switched off and restored
 };
 
+/// mm between ball and expected sphere where a touch begins and on the way there: the measuring path, or 1 mm
+/// more than the sphere may be beside its place.
+double standoff(const MeasurementInputs& inputs);
+
 /// Probe and sphere as they were set up.
 struct ProbeAndSphere {
   double probe_length = 0, ball_diameter = 6;  ///< mm, as in MeasurementInputs

@@ -247,6 +247,7 @@ VerifyResult verify(const VerifyOptions& options) {
   if (!recording.damages.empty()) throw std::runtime_error(options.recording + ": " + recording.problem);
   drop_repetitions(recording.messages);
   try {
+    require_contract(recording, options.service);
     const auto parameters = choose_parameters(options, recording);
     auto result = options.service == "gateway" ? verify_gateway(options, recording)
                                                : verify_service(options, recording);

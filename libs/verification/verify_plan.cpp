@@ -246,6 +246,15 @@ VerifyPlan surroundings(const StoredRecording& recording, const std::string& ser
 
 namespace {
 
+// Who has made it, in words.
+std::string origin_of(const StoredRecording& recording) {
+  const auto value = [&](const char* name) {
+    const auto found = recording.metadata.find(name);
+    return found == recording.metadata.end() ? std::string("unknown") : found->second;
+  };
+  return "version " + value("version") + ", contract " + value("contract");
+}
+
 [[noreturn]] void refuse_empty(const StoredRecording& recording, const std::string& service,
                                std::uint16_t channel, const VerifyPlan& plan) {
   const auto what = "the recording has no output of service " + service +
@@ -261,12 +270,26 @@ namespace {
   throw std::runtime_error(
       what +
       (refused ? " and came behind its state, which it could not give before: " + plan.seed->refused : "") +
-      (recording.foreign.empty()
-           ? ""
-           : "; it was made with another contract, for " + *recording.foreign.begin() + " at least"));
+      (recording.foreign.empty() ? ""
+                                 : "; it was made with another contract, for " + *recording.foreign.begin() +
+                                       " at least: the recording is of " + origin_of(recording)));
 }
 
 }  // namespace
+
+void require_contract(const StoredRecording& recording, const std::string& service) {
+  for (const auto& name : recording.foreign) {
+    const auto* topic = bus::find_topic(name);
+    if (topic == nullptr) continue;
+    const bool compared = names(topic->writers, service) && !not_compared().contains(topic->handle) &&
+                          topic->qos != bus::QosKind::event;
+    if (!compared && !names(topic->readers, service)) continue;
+    throw std::runtime_error("the recording is of " + origin_of(recording) + ": service " + service +
+                             " uses " + topic->handle +
+                             ", which has another form in this version (contract " + topics::contract_hash +
+                             "); verify it with the services of that version");
+  }
+}
 
 VerifyPlan plan_verification(const StoredRecording& recording, const std::string& service,
                              std::uint16_t channel) {
