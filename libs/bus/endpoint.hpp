@@ -131,6 +131,9 @@ class Backend {
   virtual bool discover(std::vector<DiscoveredWriter>& writers) = 0;
   /// Where the writer of a sample is (SampleInfo::writer): what its process has told of itself.
   virtual WriterOrigin origin_of(const WriterId& writer) = 0;
+  /// Takes in what was heard of others since the last call, for who calls neither of the two for a long time:
+  /// every process that comes or goes would be kept as messages. For the thread that calls them.
+  virtual void keep_up() {}
 };
 
 /// Throws std::runtime_error with the vendor's reason.

@@ -147,6 +147,7 @@ void Node::beat(const Health& health) {
   if (health.lifecycle == idl::service::Lifecycle::ACTIVE) notifier_.ready();
   last_beat_ = now;
   last_frames_ = health.frames_out;
+  bus_.backend().keep_up();
 }
 
 void Node::reset_alarms(Service& service, std::uint16_t channel) {

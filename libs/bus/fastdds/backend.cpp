@@ -239,6 +239,7 @@ class FastBackend : public Backend {
   }
   bool discover(std::vector<DiscoveredWriter>& writers) override { return discovery_.take_changes(writers); }
   WriterOrigin origin_of(const WriterId& writer) override { return discovery_.origin_of(writer); }
+  void keep_up() override { discovery_.keep_up(); }
 
  private:
   DdsTopic* topic(const TopicDescription& description) {

@@ -73,10 +73,19 @@ class Discovery : public eprosima::fastdds::dds::DomainParticipantListener {
     push(news);
   }
 
+  /// What was heard is no longer kept message by message.
+  void keep_up() {
+    News* const newest = heard_.exchange(nullptr);
+    std::vector<News*> in_order;
+    for (News* news = newest; news != nullptr; news = news->before) in_order.push_back(news);
+    for (auto news = in_order.rbegin(); news != in_order.rend(); ++news) take(**news);
+    free(newest);
+  }
+
   /// All writers that are there now; false and `writers` as it was when nothing has changed since the last
-  /// call. For one thread, as is origin_of().
+  /// call. For one thread, as are origin_of() and keep_up().
   bool take_changes(std::vector<DiscoveredWriter>& writers) {
-    take_news();
+    keep_up();
     if (!std::exchange(changed_, false)) return false;
     writers.clear();
     for (const auto& [id, writer] : writers_) writers.push_back(writer);
@@ -85,7 +94,7 @@ class Discovery : public eprosima::fastdds::dds::DomainParticipantListener {
 
   /// Of a writer whose process has left only what its id tells.
   WriterOrigin origin_of(const WriterId& writer) {
-    take_news();
+    keep_up();
     const auto found = processes_.find(prefix_of(writer));
     if (found != processes_.end()) return found->second;
     WriterOrigin origin;
@@ -110,13 +119,6 @@ class Discovery : public eprosima::fastdds::dds::DomainParticipantListener {
     news->before = heard_.load();
     while (!heard_.compare_exchange_weak(news->before, news)) {
     }
-  }
-  void take_news() {
-    News* const newest = heard_.exchange(nullptr);
-    std::vector<News*> in_order;
-    for (News* news = newest; news != nullptr; news = news->before) in_order.push_back(news);
-    for (auto news = in_order.rbegin(); news != in_order.rend(); ++news) take(**news);
-    free(newest);
   }
   void take(News& news) {
     if (news.process) {
