@@ -7,6 +7,10 @@
 namespace trunnion::bus {
 namespace {
 
+// An alarm has 250 characters, and who it is must leave room for topic and field, which stand before and
+// after.
+constexpr std::size_t longest_line = 120;
+
 // A stranger chooses these texts.
 std::string printable(std::string text) {
   constexpr std::size_t longest = 40;
@@ -54,6 +58,7 @@ std::string to_text(const WriterOrigin& origin) {
   // Where process and host are known the GUID would only fill the line.
   if (origin.pid.empty() || origin.host.empty())
     if (!origin.participant.empty()) text += ", GUID prefix " + printable(origin.participant);
+  if (text.size() > longest_line) text.resize(longest_line);
   return text;
 }
 

@@ -34,7 +34,7 @@ void take_property(WriterOrigin& origin, const std::string& name, const std::str
 std::string prefix_text(std::span<const std::uint8_t> guid);
 
 /// For an operator, in one line and never empty: "process 4711 (trunnion-plc) on host mill, 10.77.0.3:7413".
-/// Of each part at most 40 characters, printable ones.
+/// Of each part at most 40 characters, of all together at most 120, printable ones.
 std::string to_text(const WriterOrigin& origin);
 
 }  // namespace trunnion::bus

@@ -37,5 +37,25 @@ TEST(WriterOrigin, OfAStrangerIsShortAndPrintable) {
   EXPECT_EQ(to_text(origin), "process 1?2 (?) on host " + std::string(40, 'h'));
 }
 
+// 250 characters of an alarm, less "compensation refused 4294967296 of trunnion/compensation/axis_frame/1
+// from " (75) and ", the newest: " (14), leave 161: the 120 of a writer and 41 for the field and its value.
+TEST(WriterOrigin, OfAStrangerLeavesRoomForTheFieldInAnAlarm) {
+  const std::string lengthy(500, 'x');
+  WriterOrigin origin{.identity = lengthy,
+                      .host = lengthy,
+                      .process = lengthy,
+                      .pid = lengthy,
+                      .address = lengthy,
+                      .participant = lengthy};
+  EXPECT_EQ(to_text(origin).size(), 120u);
+  origin = {.identity = "compensation",
+            .host = "mill-control",
+            .process = "trunnion-compensation",
+            .pid = "4194304",
+            .address = "10.77.0.123:65535",
+            .participant = lengthy};
+  EXPECT_EQ(to_text(origin).substr(to_text(origin).size() - 12), "compensation") << "an honest one is whole";
+}
+
 }  // namespace
 }  // namespace trunnion::bus
