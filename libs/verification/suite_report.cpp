@@ -160,8 +160,8 @@ void judge(SuiteResult& result, int status, const std::string& output, const std
   if (result.skipped) return;
   result.problem = string_at(result.report, "problem");
   if (result.problem.empty()) result.problem = string_at(result.report, "error");
-  if (const auto* first = first_of(result); first != nullptr && result.problem.empty())
-    result.problem = "first difference: " + headline(*first);
+  if (const auto* first = first_of(result); first != nullptr)
+    result.problem += (result.problem.empty() ? "" : "; ") + ("first difference: " + headline(*first));
   std::string missing;
   if (result.report.contains("missing") && result.report["missing"].is_array())
     for (const auto& name : result.report["missing"])

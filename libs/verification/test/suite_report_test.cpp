@@ -37,6 +37,12 @@ TEST(SuiteReport, JudgesByTheStatusAndTellsTheFirstDifference) {
   EXPECT_FALSE(judged(1, R"({"first": {"around": 7}, "missing": 1, "problem": 2})").problem.empty());
 }
 
+TEST(SuiteReport, AProblemDoesNotHideTheFirstDifference) {
+  const auto result = judged(1, R"({"problem": "the network was interrupted", "first": {"topic": "plc_state",
+    "series": "", "cycle": 12, "field": "inputs[1]", "around": []}})");
+  EXPECT_THAT(result.problem, HasSubstr("the network was interrupted; first difference: plc_state"));
+}
+
 constexpr const char* idle = R"({"equal": false, "skipped": "it had nothing to do"})";
 
 TEST(SuiteReport, WhatARecordingHasNothingForIsSkippedWithItsReasonAndIsNoFailure) {
