@@ -81,11 +81,22 @@ struct Refusals {
   std::string newest;  ///< why the newest was: field and value
   std::string writer;  ///< who has written the first that is not told yet; empty: all are told
   Backend* backend = nullptr;
+  WriterId known{};        ///< the writer that was asked for last
+  std::string known_text;  ///< what it is; empty: not known for good
 
-  /// Asks for the writer once until it is told: a flood of messages must not cost more than it is.
+  /// Asks for the writer once until it is told, and not again when it is the same: a flood of messages must
+  /// not cost more than it is, and asking can take longer than a cycle.
   void add(const std::string& why, const WriterId& from) {
     ++count, newest = why;
-    if (writer.empty()) writer = to_text(backend->origin_of(from));
+    if (!writer.empty()) return;
+    if (known_text.empty() || known != from) {
+      const auto origin = backend->origin_of(from);
+      writer = to_text(origin);
+      known = from;
+      known_text = origin.pid.empty() ? "" : writer;
+    } else {
+      writer = known_text;
+    }
   }
 };
 

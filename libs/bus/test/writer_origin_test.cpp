@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bus/bus.hpp"
+
 namespace trunnion::bus {
 namespace {
 
@@ -55,6 +57,43 @@ TEST(WriterOrigin, OfAStrangerLeavesRoomForTheFieldInAnAlarm) {
             .address = "10.77.0.123:65535",
             .participant = lengthy};
   EXPECT_EQ(to_text(origin).substr(to_text(origin).size() - 12), "compensation") << "an honest one is whole";
+}
+
+/// Knows the process of every writer but 9.
+class CountingBackend : public Backend {
+ public:
+  std::unique_ptr<RawWriter> writer(const TopicDescription&, const EndpointQos&) override { return nullptr; }
+  std::unique_ptr<RawReader> reader(const TopicDescription&, const EndpointQos&, Signal*) override {
+    return nullptr;
+  }
+  bool discover(std::vector<DiscoveredWriter>&) override { return false; }
+  WriterOrigin origin_of(const WriterId& writer) override {
+    ++asked;
+    WriterOrigin origin;
+    if (writer[0] != 9) origin.pid = std::to_string(writer[0]);
+    return origin;
+  }
+  int asked = 0;
+};
+
+TEST(WriterOrigin, IsAskedForOnceOfAWriterThatFloodsATopicAndAgainWhileItIsNotKnown) {
+  CountingBackend backend;
+  Refusals refusals;
+  refusals.backend = &backend;
+  const auto flood = [&](std::uint8_t writer) {
+    for (int beat = 0; beat < 3; ++beat) {
+      refusals.writer.clear();  // told
+      for (int message = 0; message < 100; ++message) refusals.add("count: 0", WriterId{writer});
+    }
+    return refusals.writer;
+  };
+  EXPECT_EQ(flood(1), "process 1");
+  EXPECT_EQ(backend.asked, 1);
+  EXPECT_EQ(flood(2), "process 2");
+  EXPECT_EQ(backend.asked, 2);
+  EXPECT_EQ(flood(9), "a writer that has left");
+  EXPECT_EQ(backend.asked, 2 + 3) << "once in each of the three beats";
+  EXPECT_EQ(refusals.count, 900u);
 }
 
 }  // namespace
