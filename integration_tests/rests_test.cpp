@@ -151,8 +151,8 @@ TEST_P(Rests, EveryServiceIsReplacedAndTheMachineMoves) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sample, Rests, testing::ValuesIn(cases()), [](const auto& info) {
-  return std::string(info.param.action.name) + info.param.rest.name;
+INSTANTIATE_TEST_SUITE_P(Sample, Rests, testing::ValuesIn(cases()), [](const auto& test) {
+  return std::string(test.param.action.name) + test.param.rest.name;
 });
 
 }  // namespace

@@ -12,6 +12,8 @@ namespace {
 constexpr double step = 5;          // deg, of a proposed range
 constexpr double least_range = 10;  // deg
 constexpr double margin = 0.02;     // mm: a body is in contact before its clearance is used up
+// mm from the confidence range on a way. The approach position, which is 1 mm from it at least, must be free.
+constexpr double beside_confidence = 0.5;
 
 // Where a touch ends, a quarter of the measuring path behind the expected surface, the stylus is nearer to
 // the sphere than the surface of the ball was by what the ball is thicker.
@@ -72,7 +74,7 @@ MeasurementMoves::MeasurementMoves(collision::MachineBodies bodies, const std::v
   for (auto& body : bodies.set.bodies)
     if (auto* sphere = std::get_if<collision::Sphere>(&body.shape);
         sphere != nullptr && body.link == bodies.links.workpiece())
-      sphere->radius += in.confidence_range;
+      sphere->radius += in.confidence_range + std::min(0.0, beside_confidence - bodies.set.clearance);
   uncertain_.emplace(bodies.links, std::move(bodies.set));
   touching_.emplace(bodies.links, std::move(touching));
 }

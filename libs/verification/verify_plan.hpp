@@ -63,9 +63,9 @@ VerifyPlan plan_verification(StoredRecording&&, const std::string&,
 VerifyPlan surroundings(const StoredRecording& recording, const std::string& service,
                         std::uint16_t channel = 0);
 
-/// Throws std::runtime_error, one line with the version of the recording, when a topic that the service
-/// reads, or by which it is verified, is recorded in the form of another contract: what follows from it
-/// differs.
+/// Throws std::runtime_error, one line with the version of the recording, when a topic that the service or
+/// its verification reads, or by which it is verified, is recorded in the form of another contract: what
+/// follows from it differs.
 void require_contract(const StoredRecording& recording, const std::string& service);
 
 /// The first cycles of the drive's feedback that the recorder has lost between those of `plan`, in one line;

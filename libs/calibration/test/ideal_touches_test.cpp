@@ -75,5 +75,21 @@ TEST(EvaluationFault, IsNoneWhereTheTouchesDecide) {
             "");
 }
 
+// On the axis of C no centre moves but for rounding; the true sphere is beside it and has a circle.
+TEST(EvaluationFault, IsNoneOfASphereThatIsExpectedOnTheAxisOfATable) {
+  const auto model = geometry::ac_table();
+  const auto on_axis = planned(model, [&](MeasurementInputs& in) {
+    const Vec3 axis = metrology::axis_point(model, metrology::Slot::table_2);
+    in.sphere = Vec3(axis.x(), axis.y(), -420);
+  });
+  const auto centre = [&](const Vec3& beside) {
+    const auto touches = ideal_touches(on_axis.inputs, on_axis.machine, on_axis.plan, beside);
+    return evaluate(on_axis.inputs, on_axis.machine, touches).sphere;
+  };
+  const Vec3 beside(0.3, 0, 0);
+  EXPECT_LT((centre(beside) - on_axis.inputs.sphere - beside).norm(), 1e-6);
+  EXPECT_EQ(fault(on_axis), "");
+}
+
 }  // namespace
 }  // namespace trunnion::calibration

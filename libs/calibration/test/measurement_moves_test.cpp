@@ -50,34 +50,52 @@ TEST(MeasurementMoves, TheLongestMeasuringPathIsFree) {
   }
 }
 
+// mm between the centres of ball and sphere on a way of the bench, at the nearest.
+double nearest_on(const Bench& bench, const Way& way) {
+  const auto chain = geometry::make(bench.machine.measured.model);
+  double nearest = 1e9;
+  for (std::size_t i = 1; i < way.size(); ++i)
+    for (int part = 0; part <= 100; ++part) {
+      AxisPosition at{};
+      for (std::size_t k = 0; k < at.size(); ++k)
+        at[k] = way[i - 1][k] + part / 100.0 * (way[i][k] - way[i - 1][k]);
+      Angles angles{};
+      std::copy(at.begin() + 3, at.end(), angles.begin());
+      const Vec3 tip = chain.tip_from_machine(Vec3(at[0], at[1], at[2]), angles, bench.inputs.probe_length);
+      nearest = std::min(nearest, (tip - bench.inputs.sphere).norm());
+    }
+  return nearest;
+}
+// X, Y and Z with the ball beside the centre of the sphere by this, all rotary axes at zero.
+AxisPosition beside_sphere(const Bench& bench, const Vec3& beside) {
+  const Vec3 centre = geometry::make(bench.machine.measured.model)
+                          .machine_from_tip(bench.inputs.sphere, Angles{}, bench.inputs.probe_length);
+  const Vec3 at = centre + beside;
+  return {at.x(), at.y(), at.z()};
+}
+
 // The sphere may be anywhere in the confidence range: to the next pose the ball keeps that much more away
 // from it.
 TEST(MeasurementMoves, KeepOutOfTheConfidenceRangeOnTheWay) {
   Bench bench(2);
   bench.inputs.confidence_range = 4;
-  const auto moves = bench.moves();
-  const auto chain = geometry::make(bench.machine.measured.model);
   const double reach = (bench.inputs.sphere_diameter + bench.inputs.ball_diameter) / 2;
   // From 40 mm beside the sphere to 40 mm on its other side: the straight way passes it by 3 mm.
-  AxisPosition from{}, to{};
-  const Vec3 centre = chain.machine_from_tip(bench.inputs.sphere, {}, bench.inputs.probe_length);
-  from[0] = centre.x() - 40, to[0] = centre.x() + 40;
-  from[1] = to[1] = centre.y();
-  from[2] = to[2] = centre.z() + reach + 3;
-  double nearest = 1e9;
-  const auto way = moves.way(from, to);
-  for (std::size_t i = 1; i < way.size(); ++i)
-    for (int part = 0; part <= 100; ++part) {
-      Vec3 ball = Vec3::Zero();
-      for (std::size_t k = 0; k < 3; ++k)
-        ball[static_cast<int>(k)] = way[i - 1][k] + part / 100.0 * (way[i][k] - way[i - 1][k]);
-      Angles angles{};
-      for (std::size_t k = 0; k < angles.size(); ++k)
-        angles[k] = way[i - 1][3 + k] + part / 100.0 * (way[i][3 + k] - way[i - 1][3 + k]);
-      const Vec3 tip = chain.tip_from_machine(ball, angles, bench.inputs.probe_length);
-      nearest = std::min(nearest, (tip - bench.inputs.sphere).norm());
-    }
-  EXPECT_GT(nearest, reach + 4);
+  const auto way = bench.moves().way(beside_sphere(bench, Vec3(-40, 0, reach + 3)),
+                                     beside_sphere(bench, Vec3(40, 0, reach + 3)));
+  EXPECT_GT(nearest_on(bench, way), reach + 4);
+}
+
+// With a ball of 12 mm the clearance of the bodies is the whole 1 mm by which the ball over the pole is
+// outside of the confidence range. The straight way from there to 40 mm beside passes 21.3 mm from the centre
+// of the sphere, which is 2.8 mm from its surface.
+TEST(MeasurementMoves, KeepOutOfTheConfidenceRangeFromTheApproachPositionOfALargeBallOn) {
+  Bench bench(4, 12);
+  bench.inputs.confidence_range = 4;
+  const double reach = (bench.inputs.sphere_diameter + bench.inputs.ball_diameter) / 2;
+  const auto way = bench.moves().way(beside_sphere(bench, Vec3(0, 0, reach + standoff(bench.inputs))),
+                                     beside_sphere(bench, Vec3(40, 0, 5)));
+  EXPECT_GT(nearest_on(bench, way), reach + 4);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "sample_recording.hpp"
-#include "testing_support/refusal.hpp"
 #include "verification/answers.hpp"
 
 namespace trunnion::verification {
@@ -496,24 +495,6 @@ TEST(OrderedPlan, AServiceThatHadNothingToDoIsToldFromARecordingThatCannotBeUsed
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("another contract"), std::string::npos) << error.what();
   }
-}
-
-// What the drive would make of another input is not what it has made.
-TEST(OtherContract, IsRefusedWithTheVersionWhereTheServiceUsesTheTopic) {
-  auto recording = sample_recording(2);
-  recording.metadata["version"] = "0.2.0", recording.metadata["contract"] = "0123456789abcdef";
-  const auto refusal = [&](const std::string& topic, const std::string& service) {
-    recording.foreign = {topic};
-    return testing_support::refusal_of([&] { require_contract(recording, service); });
-  };
-  EXPECT_EQ(refusal("gantry_frame", "drive"),
-            std::string("the recording is of version 0.2.0, contract 0123456789abcdef: service drive uses "
-                        "gantry_frame, which has another form in this version (contract ") +
-                topics::contract_hash + "); verify it with the services of that version");
-  EXPECT_NE(refusal("gantry_frame", "gantry"), "taken") << "its output is compared";
-  EXPECT_EQ(refusal("gantry_frame", "kinematics"), "taken");
-  EXPECT_EQ(refusal("stage_progress", "kinematics"), "taken") << "it is not compared";
-  EXPECT_EQ(refusal("elsewhere/topic", "kinematics"), "taken");
 }
 
 }  // namespace
