@@ -56,6 +56,7 @@ class Lowering {
   Value temporary(const Type* type);
   Value kept(Value value);
   Value own_copy(const Value& value, const Type* expected, Position at);
+  Value of_type(const Value& value, const Type& type, Position at);
   void initial_at(std::size_t jump, const Value& value);
   void fill(std::int32_t first, const std::vector<std::uint64_t>& cells);
   Value variable_value(Variable& variable);

@@ -75,21 +75,55 @@ bool keeps_type(FunctionGroup group) {
          group == order_of_bytes;
 }
 
+/// The second argument of shifts and of EXPT.
+bool has_other_type(const FunctionRow& row) {
+  return row.group == FunctionGroup::shift || row.name == "EXPT";
+}
+
+/// ADD_INT is ADD with operands of this type (IEC 61131-3:2013, table 21); nullptr for other names.
+const FunctionRow* typed_function(const std::string& name, const Type*& type) {
+  using enum FunctionGroup;
+  const auto at = name.rfind('_');
+  if (at == std::string::npos) return nullptr;
+  const auto* row = find_function(name.substr(0, at));
+  type = elementary(name.substr(at + 1));
+  if (row == nullptr || type == nullptr) return nullptr;
+  const bool permitted = (keeps_type(row->group) && row->group != order_of_bytes) ||
+                         row->group == comparison || row->group == shift;
+  return permitted ? row : nullptr;
+}
+
 }  // namespace
 
+/// The value in a cell of this type, to which it converts implicitly.
+Value Lowering::of_type(const Value& value, const Type& type, Position at) {
+  const auto given = converted(value, type, at);
+  if (given.is_error() || given.is_constant || same_type(*given.type, type)) return given;
+  auto result = temporary(&type);
+  emit_.add(Op::move, result.place.offset, cell(given, type));
+  return result;
+}
+
 std::optional<Value> Lowering::standard_function(const Expression& e, const Type* expected) {
-  const auto& name = e.parts[0]->name;
-  const auto* row = find_function(name);
-  if (row == nullptr) return conversion(e, name);
+  const Type* operands = nullptr;
+  const auto* row = find_function(e.parts[0]->name);
+  if (row == nullptr) {
+    if (auto value = conversion(e, e.parts[0]->name)) return value;
+    row = typed_function(e.parts[0]->name, operands);
+    if (row == nullptr) return std::nullopt;
+  }
+  const std::string name(row->name);
   std::vector<const Expression*> ordered;
   if (!in_order(*row, e, unit_.diagnostics(), ordered)) return error();
   std::vector<Value> values;
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     const bool selects = i == 0 && (name == "SEL" || name == "MUX");
-    const Type* hint = selects || !keeps_type(row->group) ? nullptr : expected;
+    const bool is_typed = operands != nullptr && !selects && (i == 0 || !has_other_type(*row));
+    const Type* hint = is_typed ? operands : selects || !keeps_type(row->group) ? nullptr : expected;
     if (i > 0 && !values.back().is_error() && values.back().type->kind == Kind::enumeration)
       hint = values.back().type;
     auto value = expression(*ordered[i], hint);
+    if (is_typed) value = of_type(value, *operands, ordered[i]->at);
     for (auto j = i + 1; j < ordered.size(); ++j)
       if (ordered[j]->kind == Expression::Kind::call) value = value.is_error() ? value : kept(value);
     values.push_back(value);

@@ -176,6 +176,8 @@ const Wrong programs[] = {
     {true, "i := TO_BIG_ENDIAN(1);", "3:6: error: TO_BIG_ENDIAN needs a typed literal, as WORD#16#FF"},
     {true, "s := TO_BIG_ENDIAN(s);",
      "3:6: error: TO_BIG_ENDIAN is for integers, bit strings, REAL, LREAL and times, not for STRING[5]"},
+    {true, "i := ADD_INT(i, d);", "3:17: error: expected INT, found DINT; convert with DINT_TO_INT"},
+    {true, "i := ADD_FOO(i, d);", "3:6: error: there is no function 'ADD_FOO'"},
     {true, "b := AND(b);", "3:6: error: AND has 2 or more arguments, not 1"},
     {true, "i := MOD(i, i, i);", "3:6: error: MOD has 2 arguments, not 3"},
     {true, "b := OR(IN1 := b, IN3 := b);",

@@ -233,6 +233,14 @@ const Row rows[] = {
     {"BYTE", "NOT(BYTE#16#F0)", "15"},
     {"BYTE", "NOT(IN := b15)", "240"},
     {"BYTE", "NOT(b15) AND BYTE#16#30", "48"},
+    // the type in the name of an operation (table 21): of SINT and BYTE these would be -2 and 0
+    {"INT", "ADD_INT(s127, s127)", "254"},
+    {"WORD", "SHL_WORD(b15, 12)", "61440"},
+    {"REAL", "DIV_REAL(1, 4)", "0.25"},
+    {"LREAL", "SQRT_LREAL(REAL#2.25)", "1.5"},
+    {"LREAL", "EXPT_LREAL(IN2 := 3, IN1 := 2)", "8.0"},
+    {"DINT", "SEL_DINT(i0 = 0, 1, s127)", "127"},
+    {"BOOL", "GT_LREAL(1, 0.5)", "TRUE"},
     // LTIME (table 35)
     {"LINT", "LTIME_TO_LINT(ADD_LTIME(LT#1us, LT#5ns))", "1005"},
     {"LINT", "LTIME_TO_LINT(ADD_LTIME(T#1ms, LT#5ns))", "1000005"},
