@@ -2,6 +2,8 @@
 // What the standard's tables of diagrams and charts have and no other test covers (libs/plc/standard).
 #include <gmock/gmock.h>
 
+#include <tuple>
+
 #include "chart_documents.hpp"
 
 namespace trunnion::st {
@@ -105,6 +107,36 @@ TEST(Plcopen, BlocksAreCalledThroughInOutAndExternalVariables) {
   drawn.scan();
   EXPECT_EQ(drawn.get("own.CV") + drawn.get("x.CV"), "11");
   EXPECT_EQ(drawn.get("g.n") + drawn.get("s.n"), "11");
+}
+
+// What the function changes does not change what was loaded before.
+TEST(Plcopen, FunctionsAreInstructionsOfLists) {
+  const auto list = [](const std::string& code) {
+    return project(pou("main", "program", variables("localVars", {{"x", "<INT/>"}, {"r", "<INT/>"}}),
+                       "<IL><xhtml>" + code + "</xhtml></IL>"));
+  };
+  const std::string raised =
+      "FUNCTION Raised : INT VAR_IN_OUT v : INT; END_VAR v := v + 1; Raised := v; END_FUNCTION\n"
+      "FUNCTION Clear VAR_IN_OUT v : INT; END_VAR v := 0; END_FUNCTION\n";
+  for (const auto& [code, x, r] : {std::tuple{"LD 3\nST x\nLD x\nADD(\nRaised(v := x)\n)\nST r", "4", "7"},
+                                   {"LD -9\nST x\nLD x\nABS\nMAX 4, x\nST r", "-9", "9"},
+                                   {"Raised(x)\nRaised(x)\nST r", "2", "2"}}) {
+    Drawn drawn(list(code), raised);
+    drawn.scan();
+    EXPECT_EQ(drawn.get("x"), x) << code;
+    EXPECT_EQ(drawn.get("r"), r) << code;
+  }
+  const auto refused = [&](const std::string& code) {
+    const auto lines = compile({{"drawn.xml", list(code)}, {"t.st", raised}}, interface_registers()).lines();
+    for (const auto& line : lines)
+      if (line.find(": error: ") != std::string::npos) return line;
+    return std::string();
+  };
+  EXPECT_THAT(refused("LOAD x\nST r"), testing::HasSubstr("there is no current result: LD comes first"));
+  EXPECT_THAT(refused("LD x\nLOAD r"), testing::HasSubstr("unknown instruction 'LOAD'"));
+  EXPECT_THAT(refused("LOAD(x)\nST r"), testing::HasSubstr("there is no function 'LOAD'"));
+  EXPECT_THAT(refused("ABS\nST r"), testing::HasSubstr("there is no current result: LD comes first"));
+  EXPECT_THAT(refused("Clear(x)\nST r"), testing::HasSubstr("has no result"));
 }
 
 // The action has no qualifier: as N.
