@@ -119,7 +119,7 @@ struct TypeSpec {
   };
   Kind kind = Kind::named;
   Position at;
-  std::string name, text;   ///< of named
+  std::string name, text;   ///< of named; of an enumeration the type of its values, if it says one
   ExpressionPtr low, high;  ///< of a subrange
   std::vector<Dimension> dimensions;
   TypeSpecPtr element;   ///< of an array

@@ -99,7 +99,10 @@ TypeSpecPtr DeclarationParser::type_spec() {
     const auto name = expect_name("a type");
     spec->name = name.upper;
     spec->text = name.text;
-    if (is_symbol("(")) {
+    if (at_named_values()) {
+      take();
+      enumeration(*spec);
+    } else if (is_symbol("(")) {
       take();
       spec->low = expression();
       expect_symbol("..", "between the limits of the subrange");
@@ -108,6 +111,13 @@ TypeSpecPtr DeclarationParser::type_spec() {
     }
   }
   return spec;
+}
+
+/// INT (low := 1, high := 5); a subrange has ".." behind its first limit.
+bool DeclarationParser::at_named_values() const {
+  const auto& behind = ahead(2);
+  return is_symbol("(") && ahead().kind == TokenKind::identifier && behind.kind == TokenKind::symbol &&
+         (behind.text == ":=" || behind.text == "," || behind.text == ")");
 }
 
 void DeclarationParser::enumeration(TypeSpec& spec) {

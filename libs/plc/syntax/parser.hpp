@@ -133,6 +133,7 @@ class DeclarationParser : public StatementParser {
   void recover();
   void type_block();
   TypeSpecPtr type_spec();
+  bool at_named_values() const;
   void enumeration(TypeSpec& spec);
   void variable_list(std::vector<VariableDeclaration>& variables, std::vector<TypeSpecPtr>& types,
                      std::vector<ExpressionPtr>& initials, bool locations);
