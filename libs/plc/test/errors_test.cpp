@@ -294,6 +294,9 @@ const Wrong programs[] = {
      "1:293: error: VAR_IN_OUT 'z' is INT, not DINT"},
     {false, "FUNCTION_BLOCK B VAR_INPUT i : INT; END_VAR i := 1; END_FUNCTION_BLOCK",
      "1:45: error: 'i' is an input of the function block and cannot be written"},
+    {false, "PROGRAM main VAR_IN_OUT x : INT; END_VAR x := 5; END_PROGRAM",
+     "1:25: error: nothing gives VAR_IN_OUT 'x' a variable; connect it in a CONFIGURATION, or use "
+     "VAR_EXTERNAL"},
     {false, "FUNCTION_BLOCK B VAR_IN_OUT i : INT := 1; END_VAR i := 1; END_FUNCTION_BLOCK",
      "1:29: error: VAR_IN_OUT 'i' is the caller's variable and has no initial value"},
     {false, "FUNCTION f : INT VAR_TEMP x AT %X0.0 : BOOL; END_VAR f := 1; END_FUNCTION",
