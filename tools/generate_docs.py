@@ -315,7 +315,7 @@ def standard_tables():
 
 def standard():
     tables, words = standard_tables(), {"done": "yes", "partly": "partly", "not": "no"}
-    plain = lambda text: re.sub(r"([*<_`])", r"\\\1", text)
+    plain = lambda text: re.sub(r"([*<`]|(?<!\w)_)", r"\\\1", text)
     status = [r.get("status", "done") for t in tables for r in t["rows"]]
     count = {s: status.count(s) for s in words}
     out = ["# The PLC and the tables of IEC 61131-3", "", f"Generated from `{STANDARD}` by `tools/generate_docs.py`.", "",
