@@ -88,6 +88,7 @@ class Lexer {
     if (digit(c)) return number();
     if (c == '\'' || c == '"') return string(c);
     if (c == '%') return direct();
+    if (c == '{') return pragma();
     Token token{TokenKind::symbol, "", "", 10, here()};
     for (const auto symbol : long_symbols)
       if (!symbol.empty() && source_.substr(i_, symbol.size()) == symbol) token.text = symbol;
@@ -103,6 +104,13 @@ class Lexer {
     }
     i_ += token.text.size();
     tokens_.push_back(std::move(token));
+  }
+
+  /// As a whole, so that there is one error.
+  void pragma() {
+    diagnostics_.error(here(), "there are no pragmas in braces; write a comment, (* *)");
+    while (i_ < source_.size() && at() != '}') step();
+    if (i_ < source_.size()) step();
   }
 
   void identifier() {

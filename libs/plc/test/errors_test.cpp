@@ -134,6 +134,7 @@ const Wrong programs[] = {
     {true, "s := 'abc;", "3:6: error: the string is not closed: write ' behind it"},
     {true, "s := '$Q';", "3:7: error: '$' begins $$, $', $\", $L, $N, $P, $R, $T or two hexadecimal digits"},
     {true, "i := @;", "3:6: error: unexpected character '@'"},
+    {true, "{VERSION 2.0} i := 1;", "3:1: error: there are no pragmas in braces; write a comment, (* *)"},
     {true, "(* never", "3:1: error: the comment is not closed: write *) behind it"},
     {true, "d := 1; (* outer (* inner *)",
      "3:9: error: the comment is not closed: write *) behind it, or behind the one that begins in it at "
@@ -339,6 +340,15 @@ TEST(Errors, SeveralAreReportedInOneRun) {
                                    testing::HasSubstr("a.st:3:6: error:"),
                                    testing::HasSubstr("a.st:4:3: error: expected ':='"),
                                    testing::HasSubstr("a.st:7:1: error: expected the name of a function")));
+}
+
+TEST(Errors, APragmaIsOne) {
+  const auto result = compile(
+      {{"a.st", "{AUTHOR me}\nPROGRAM a\nVAR i : INT; END_VAR\ni := {x := 1,\n y := 2} 1;\nEND_PROGRAM\n"}},
+      interface_registers());
+  EXPECT_THAT(result.lines(),
+              testing::ElementsAre(testing::HasSubstr("a.st:1:1: error: there are no pragmas in braces"),
+                                   testing::HasSubstr("a.st:4:6: error: there are no pragmas in braces")));
 }
 
 TEST(Errors, DeepNestingIsRefused) {
