@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "canonical/axes.hpp"
+#include "geometry/angle.hpp"
 #include "geometry/decompositions.hpp"
 
 namespace trunnion::identification {
@@ -39,22 +40,29 @@ Eigen::VectorXd column_of(const truth::TrueGeometry& wrong, const geometry::Chai
   return column;
 }
 
-// Of the unknowns. Neighbouring readings of a turn share their error, because they are smoothed: the
-// covariance of the readings is that of the residuals over a tenth of them, with the weights of Newey and
-// West (1987).
-Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& design, const Eigen::MatrixXd& inverse,
-                              const Eigen::VectorXd& residual) {
-  const Eigen::Index rows = design.rows(), readings = rows / 3, lags = readings / 10;
-  const double freedom = static_cast<double>(std::max<Eigen::Index>(rows - 3 - design.cols(), 1));
-  Eigen::MatrixXd sum = residual.squaredNorm() / freedom * (design.transpose() * design);
-  for (Eigen::Index lag = 1; lag <= lags; ++lag) {
-    const Eigen::Index pairs = rows - 3 * lag;
-    const double weight = 1 - static_cast<double>(lag) / static_cast<double>(lags + 1);
-    const double shared = residual.head(pairs).dot(residual.tail(pairs)) / freedom;
-    const Eigen::MatrixXd both = design.topRows(pairs).transpose() * design.bottomRows(pairs);
-    sum += weight * shared * (both + both.transpose());
-  }
-  return inverse * sum * inverse;
+// Of one reading in one direction, as what moves as slowly as an axis that is displaced sees it. Neighbouring
+// readings share their error, because those of a turn are smoothed: their power in the orders 2 .. 6 of the
+// readings counts, 30 values in three directions; orders 0 and 1 are the setting and the errors themselves.
+// Few readings are taken as independent.
+double variance_of(const Eigen::VectorXd& residual, Eigen::Index unknowns) {
+  constexpr Eigen::Index lowest = 2, highest = 6;
+  const Eigen::Index rows = residual.size(), readings = rows / 3;
+  if (readings <= 2 * highest)
+    return residual.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(rows - 3 - unknowns, 1));
+  double power = 0;
+  for (Eigen::Index order = lowest; order <= highest; ++order)
+    for (Eigen::Index direction = 0; direction < 3; ++direction) {
+      double cosine = 0, sine = 0;
+      for (Eigen::Index i = 0; i < readings; ++i) {
+        const auto turn =
+            geometry::sine_cosine(360.0 * static_cast<double>(order * i) / static_cast<double>(readings));
+        cosine += residual[3 * i + direction] * turn.cosine;
+        sine += residual[3 * i + direction] * turn.sine;
+      }
+      power += 2 * (cosine * cosine + sine * sine) / static_cast<double>(readings);
+    }
+  constexpr double values = 3 * 2 * (highest - lowest + 1);
+  return power / values;
 }
 
 }  // namespace
@@ -125,11 +133,11 @@ AxisLocation locate_axis(const truth::MachineOutline& machine, const geometry::C
         rest.segment<3>(static_cast<Eigen::Index>(3 * i)) / static_cast<double>(readings.size());
   const Eigen::VectorXd residual = varying(rest);
   result.residual = residual.norm() / std::sqrt(static_cast<double>(rows));
-  const Eigen::MatrixXd covariance = covariance_of(matrix, inverse, residual);
+  const double variance = variance_of(residual, x.size());
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     const auto& unknown = unknowns[static_cast<std::size_t>(k)];
     result.errors.push_back(
-        {unknown.name, x[k] / lengths[k], std::sqrt(covariance(k, k)) / lengths[k], unknown.angle});
+        {unknown.name, x[k] / lengths[k], std::sqrt(variance * inverse(k, k)) / lengths[k], unknown.angle});
   }
   return result;
 }

@@ -57,29 +57,31 @@ class Lexer {
     return false;
   }
 
-  /// Comments of one kind nest (IEC 61131-3:2013, table 3).
+  /// Comments of one kind nest (IEC 61131-3:2013, table 3). Whoever does not know it has taken the end of an
+  /// inner one for the end of the outer.
   void comment(char first, char last) {
-    std::vector<Position> open;
+    const Position begin = here();
+    std::string inner;
+    int open = 0;
     do {
       if (at() == first && at(1) == '*') {
-        open.push_back(here());
+        if (open == 1 && inner.empty()) inner = place(here());
+        ++open;
         i_ += 2;
       } else if (at() == '*' && at(1) == last) {
-        open.pop_back();
+        --open;
         i_ += 2;
       } else {
         step();
       }
-    } while (!open.empty() && i_ < source_.size());
-    if (open.empty()) return;
-    diagnostics_.error(open.front(), std::string("the comment is not closed: write *") + last + " behind it" +
-                                         (open.size() == 1 ? "" : inner_comments(open)));
+    } while (open > 0 && i_ < source_.size());
+    if (open == 0) return;
+    diagnostics_.error(begin, std::string("the comment is not closed: write *") + last + " behind it" +
+                                  (inner.empty() ? "" : ", or behind the one that begins in it at " + inner));
   }
 
-  static std::string inner_comments(const std::vector<Position>& open) {
-    const auto& at = open[1];
-    return ", or behind the one that begins in it at " + std::to_string(at.line) + ":" +
-           std::to_string(at.column);
+  static std::string place(const Position& at) {
+    return std::to_string(at.line) + ":" + std::to_string(at.column);
   }
 
   void word() {
