@@ -155,6 +155,7 @@ bus::Json json_of(const calibration::KinematicsResult& r, const calibration::Mea
                               {"offset_before_mm", vector_json(v.before)},
                               {"offset_after_mm", vector_json(v.after)},
                               {"offset_uncertainty_95_mm", vector_json(v.expanded)},
+                              {"offset_with_real_directions_mm", vector_json(v.with_directions)},
                               {"observed", v.observed},
                               {"direction_ideal", vector_json(v.direction_before)},
                               {"direction_real", vector_json(v.direction_after)},

@@ -179,11 +179,14 @@ class Evaluation {
                    "a larger "
                    "circle, more points, or directions: report",
                    "ABCUVW"[axis.angle], known, least_known_direction));
+    // Without the directions the inclination of an axis is in the residuals; it is no error of the touches.
+    if (real.freedom > 0)
+      options.touch_deviation = real.touch_deviation, options.touch_freedom = real.freedom;
     const auto written = in_.write_directions ? real : fit(start, options, false);
     result_.after = written.parameters;
     result_.sphere = written.sphere;
-    result_.touch_deviation = written.touch_deviation;
-    result_.freedom = written.freedom;
+    result_.touch_deviation = real.freedom > 0 ? real.touch_deviation : written.touch_deviation;
+    result_.freedom = real.freedom > 0 ? real.freedom : written.freedom;
     result_.condition = real.condition;
     result_.not_observed = real.not_observed;
     for (std::size_t i = 0; i < result_.poses.size(); ++i) {
@@ -199,6 +202,7 @@ class Evaluation {
         change.slot = vector.slot;
         change.before = before.offset + before.correction;
         change.after = written.axes[i].offset.value;
+        change.with_directions = real.axes[i].offset.value;
         change.expanded = written.axes[i].offset.expanded;
         change.observed = written.axes[i].offset.observed;
         change.direction_before = before.direction.normalized();

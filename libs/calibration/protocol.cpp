@@ -22,13 +22,15 @@ void add_vector(std::string& text, const char* name, const Vec3& v, int digits) 
 constexpr const char* modes[]{"correct", "only correct", "measure only"};
 constexpr const char* planes[]{"G17", "G18", "G19", "active"};
 
-void add_vectors(std::string& text, const KinematicsResult& result) {
+void add_vectors(std::string& text, const KinematicsResult& result, bool directions_written) {
   add(text, "%-26s %14s %14s %14s\n", "Offset vectors:", "X [mm]", "Y [mm]", "Z [mm]");
   for (const auto& v : result.vectors) {
     add_vector(text, (v.name + " before").c_str(), v.before, 5);
     add_vector(text, (v.name + " after").c_str(), v.after, 5);
     add_vector(text, (v.name + " difference").c_str(), v.after - v.before, 5);
     add_vector(text, (v.name + " uncertainty (95 %)").c_str(), v.expanded, 5);
+    if (!directions_written)
+      add_vector(text, (v.name + " with real directions").c_str(), v.with_directions, 5);
   }
   add(text, "%-26s %14s %14s %14s\n", "Direction vectors:", "X", "Y", "Z");
   for (const auto& v : result.vectors) {
@@ -110,7 +112,7 @@ std::string protocol_text(const ProtocolHead& head, const MeasurementInputs& in,
         pose.residual.x(), pose.residual.y(), pose.residual.z(), pose.diameter);
   rule(text, '-');
   add_corrections(text, result);
-  add_vectors(text, result);
+  add_vectors(text, result, in.write_directions);
   add(text, "Standard deviation of a touch by the residuals: %.5f mm (%zu degrees of freedom)\n",
       result.touch_deviation, result.freedom);
   if (!result.tolerance_alarm.empty()) text += "ALARM: " + result.tolerance_alarm + "\n";

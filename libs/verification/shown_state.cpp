@@ -241,6 +241,9 @@ bool is_planned(const Json& service) {
 void take_out_clock(Json& document, std::uint32_t instance) {
   if (!document.is_object()) return;
   document.erase("trace");
+  document.erase("run_times");
+  if (const auto cluster = document.find("cluster"); cluster != document.end() && cluster->is_object())
+    cluster->erase("title");
   const auto own = std::to_string(instance);
   if (const auto services = document.find("services"); services != document.end() && services->is_object()) {
     services->erase(own);
