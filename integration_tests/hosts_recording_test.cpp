@@ -79,6 +79,8 @@ TEST_F(Hosts, ARecordingOfARunWithAnInterruptionIsVerifiedOrNamesIt) {
     hosts.expect("cut", " motion 3");
     EXPECT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion is silent"); }))
         << cluster.told();
+    EXPECT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion hears no other host"); }))
+        << cluster.told();
     EXPECT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
     EXPECT_TRUE(cluster.until([&] { return cluster.state() != RunState::RUNNING; })) << cluster.told();
     EXPECT_TRUE(cluster.go_on()) << cluster.told();

@@ -240,6 +240,9 @@ TEST_F(Hosts, ASecuredHostThatIsCutOffForThreeSecondsTakesPartAgainAfterAReset) 
     hosts.expect("cut", " motion 3");
     ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion is silent"); }))
         << cluster.told();
+    // The alarm of the other side comes when the cut is over.
+    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion hears no other host"); }))
+        << cluster.told();
     ASSERT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
     ASSERT_TRUE(cluster.until([&] {
       cluster.reset_alarms();

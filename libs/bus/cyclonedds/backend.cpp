@@ -8,15 +8,20 @@
 #include <dds/ddsi/ddsi_sertype.h>
 #include <dds/ddsi/q_radmin.h>
 #include <dds/ddsrt/log.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <future>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 #include <tuple>
 
 #include "bus/endpoint.hpp"
@@ -393,7 +398,8 @@ class Participants {
     dds_create_domain(network.domain, configuration(network).c_str());
     const auto participant = dds_create_participant(network.domain, participant_qos(network).get(), nullptr);
     if (participant < 0) fail("participant in domain " + std::to_string(network.domain), participant);
-    [[maybe_unused]] static const int once = std::atexit([] { Participants::of_this_process().end(); });
+    [[maybe_unused]] static const int once =
+        on_exit([](int status, void*) { Participants::of_this_process().end(status); }, nullptr);
     secured_ = secured_ || !network.security.empty();
     return participant;
   }
@@ -402,12 +408,21 @@ class Participants {
     idle_.emplace(key_of(network), participant);
   }
   // The others learn at once that this process ends.
-  void end() {
+  void end(int status) {
     for (const auto& [key, participant] : idle_) dds_delete(participant);
     // The threads of a secured domain would go on encrypting while OpenSSL, loaded with the security plugins,
     // clears up: what is registered later is called earlier. A domain without security is left as it is: its
     // end waits for a packet to itself, which never comes when the network is gone.
-    if (secured_) dds_delete(DDS_CYCLONEDDS_HANDLE);
+    if (!secured_) return;
+    const auto ended = std::make_shared<std::promise<void>>();
+    std::thread([ended] {
+      dds_delete(DDS_CYCLONEDDS_HANDLE);
+      ended->set_value();
+    }).detach();
+    constexpr std::chrono::seconds longest(2);
+    if (ended->get_future().wait_for(longest) == std::future_status::ready) return;
+    std::fflush(nullptr);
+    _exit(status);
   }
   static Participants& of_this_process() {
     static auto* const all = new Participants;  // outlives every Bus, static ones too
