@@ -35,7 +35,13 @@ void Unit::run() {
 void Unit::declare_pous() {
   for (const auto& declaration : tree_.pous) {
     auto& pou = pous[declaration.name];
-    if (pou.declaration != nullptr) {
+    const bool replaces = declaration.kind == PouKind::function && !is_library(declaration.at) &&
+                          is_replaceable_function(declaration.name) &&
+                          (pou.declaration == nullptr || is_library(pou.declaration->at));
+    if (replaces) {
+      diagnostics_.warning(declaration.at,
+                           "'" + declaration.text + "' takes the place of the standard function");
+    } else if (pou.declaration != nullptr) {
       const auto& other = *pou.declaration;
       diagnostics_.error(declaration.at,
                          "'" + declaration.text + "' is declared already" +
@@ -45,7 +51,7 @@ void Unit::declare_pous() {
     }
     if (declared_.contains(declaration.name) || elementary(declaration.name) != nullptr)
       diagnostics_.error(declaration.at, "'" + declaration.text + "' is a type already");
-    if (is_standard_function(declaration.name))
+    if (!replaces && is_standard_function(declaration.name))
       diagnostics_.error(declaration.at, "'" + declaration.text + "' is a standard function");
     pou.declaration = &declaration;
     pou.type.kind = Kind::block;

@@ -214,10 +214,12 @@ ExpressionPtr ExpressionParser::designator() {
     if (levels > 200) fail("fewer members");
     if (is_symbol(".")) {
       take();
-      if (now().kind == TokenKind::direct) {
+      // The X of a bit may be left out: b.3 (IEC 61131-3:2013, table 17).
+      const bool bit = now().kind == TokenKind::integer && now().base == 10;
+      if (now().kind == TokenKind::direct || bit) {
         const auto token = take();
         auto part = make(Expression::Kind::part, token.at);
-        part->name = token.text;
+        part->name = bit ? "X" + token.text : token.text;
         part->parts.push_back(std::move(node));
         node = std::move(part);
         continue;
@@ -273,22 +275,37 @@ std::vector<Argument> ExpressionParser::arguments() {
   return result;
 }
 
+/// 1, 2, 5(0): the initial values of an array.
+ExpressionPtr ExpressionParser::initial_list(Position at) {
+  auto list = make(Expression::Kind::list, at);
+  do {
+    ExpressionPtr repeat;
+    if (now().kind == TokenKind::integer && ahead().kind == TokenKind::symbol && ahead().text == "(") {
+      repeat = primary();
+      take();
+      list->parts.push_back(is_symbol(")") ? nullptr : initializer());
+      expect_symbol(")", "behind the repeated value");
+    } else {
+      list->parts.push_back(initializer());
+    }
+    list->repeat.push_back(std::move(repeat));
+  } while (accept_symbol(","));
+  return list;
+}
+
+/// The first edition of the standard, and CoDeSys 2.3, have no brackets around the values of an array.
+ExpressionPtr ExpressionParser::array_initializer() {
+  if (is_symbol("[")) return initializer();
+  auto list = initial_list(now().at);
+  const bool single = list->parts.size() == 1 && list->repeat[0] == nullptr;
+  if (single) return std::move(list->parts[0]);
+  return list;
+}
+
 ExpressionPtr ExpressionParser::initializer() {
   const Depth depth(*this);
   if (is_symbol("[")) {
-    auto list = make(Expression::Kind::list, take().at);
-    do {
-      ExpressionPtr repeat;
-      if (now().kind == TokenKind::integer && ahead().kind == TokenKind::symbol && ahead().text == "(") {
-        repeat = primary();
-        take();
-        list->parts.push_back(is_symbol(")") ? nullptr : initializer());
-        expect_symbol(")", "behind the repeated value");
-      } else {
-        list->parts.push_back(initializer());
-      }
-      list->repeat.push_back(std::move(repeat));
-    } while (accept_symbol(","));
+    auto list = initial_list(take().at);
     expect_symbol("]", "behind the initial values");
     return list;
   }

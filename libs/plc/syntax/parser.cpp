@@ -22,7 +22,7 @@ void DeclarationParser::declaration() {
   if (is_word("VAR_GLOBAL")) return tree_.globals.push_back(variable_block());
   if (is_word("PROGRAM")) return pou(PouKind::program, "END_PROGRAM", "a program");
   if (is_word("FUNCTION")) return pou(PouKind::function, "END_FUNCTION", "a function");
-  if (is_word("FUNCTION_BLOCK"))
+  if (is_word("FUNCTION_BLOCK") || is_word("FUNCTIONBLOCK"))  // CoDeSys writes both
     return pou(PouKind::function_block, "END_FUNCTION_BLOCK", "a function block");
   if (is_word("TEST")) return pou(PouKind::test, "END_TEST", "a test");
   if (at_configuration()) return configuration();
@@ -53,7 +53,8 @@ void DeclarationParser::type_block() {
     declaration.at = name.at;
     expect_symbol(":", "behind the name of the type");
     declaration.type = type_spec();
-    if (accept_symbol(":=")) declaration.initial = initializer();
+    const bool list = declaration.type->kind == TypeSpec::Kind::array;
+    if (accept_symbol(":=")) declaration.initial = list ? array_initializer() : initializer();
     if (declaration.type->kind == TypeSpec::Kind::structure)
       accept_symbol(";");
     else
@@ -162,7 +163,8 @@ void DeclarationParser::variable_list(std::vector<VariableDeclaration>& variable
     edge = InputEdge::falling;
   Expression* initial = nullptr;
   if (accept_symbol(":=")) {
-    initials.push_back(initializer());
+    const bool list = types.back()->kind == TypeSpec::Kind::array;
+    initials.push_back(list ? array_initializer() : initializer());
     initial = initials.back().get();
   }
   expect_symbol(";", "behind the declaration");
@@ -194,6 +196,8 @@ VariableBlock DeclarationParser::variable_block() {
     else if (!accept_word("NON_RETAIN"))
       break;
   }
+  // What a call gives is no constant: VAR_INPUT CONSTANT of CoDeSys is VAR_INPUT.
+  if (block.section == VariableSection::input) block.constant = false;
   while (!is_word("END_VAR")) {
     if (now().kind == TokenKind::end || at_pou_end()) fail("END_VAR");
     try {

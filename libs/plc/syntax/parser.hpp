@@ -82,6 +82,8 @@ class ExpressionParser : public TokenReader {
 
  protected:
   ExpressionPtr expression(int precedence = 0);
+  ExpressionPtr initial_list(Position at);
+  ExpressionPtr array_initializer();
   ExpressionPtr initializer();
   /// A variable, or a call of a function or function block.
   ExpressionPtr designator();

@@ -105,7 +105,11 @@ std::unique_ptr<Statement> StatementParser::statement() {
       fail("':=' or '(' behind '" + target->text + "'");
     }
   }
-  expect_symbol(";", "at the end of the statement");
+  // END_IF and the like end a statement for everybody but the standard.
+  if (s.kind >= if_ && s.kind <= repeat)
+    accept_symbol(";");
+  else
+    expect_symbol(";", "at the end of the statement");
   return result;
 }
 
