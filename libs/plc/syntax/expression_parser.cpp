@@ -191,6 +191,15 @@ ExpressionPtr ExpressionParser::typed_literal() {
   return node;
 }
 
+void ExpressionParser::refuse_pointer() {
+  if (!has_refused_pointer_)
+    diagnostics_.error(
+        now().at,
+        "there are no pointers and references; pass the variable as VAR_IN_OUT, and take bytes of a "
+        "string with MID");
+  has_refused_pointer_ = true;
+}
+
 ExpressionPtr ExpressionParser::designator() {
   ExpressionPtr node;
   if (now().kind == TokenKind::direct) {
@@ -231,6 +240,9 @@ ExpressionPtr ExpressionParser::designator() {
       member->text = token.text;
       member->parts.push_back(std::move(node));
       node = std::move(member);
+    } else if (is_symbol("^")) {
+      refuse_pointer();
+      take();
     } else if (is_symbol("[")) {
       auto index = make(Expression::Kind::index, take().at);
       index->parts.push_back(std::move(node));

@@ -86,6 +86,10 @@ TypeSpecPtr DeclarationParser::type_spec() {
     expect_symbol("]", "behind the limits of the array");
     expect_word("OF", "before the type of the elements");
     spec->element = type_spec();
+  } else if (is_word("POINTER") && ahead().upper == "TO") {
+    refuse_pointer();
+    take(), take();
+    return type_spec();
   } else if (is_word("STRING") || is_word("WSTRING")) {
     spec->name = take().upper;
     spec->kind = TypeSpec::Kind::string;
@@ -283,6 +287,7 @@ Statements DeclarationParser::edge_calls(PouDeclaration& pou) {
 
 void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view what) {
   PouDeclaration pou;
+  has_refused_pointer_ = false;
   pou.kind = kind;
   take();
   if (kind == PouKind::test && now().kind == TokenKind::string) {
