@@ -51,6 +51,10 @@ class Lowering {
   Value power(Value left, Value right, const Type* expected, Position at);
   Value operation(Op op, const Type* type, const Value& left, const Value& right, bool narrow);
   bool settle(Value& left, Value& right, const std::string& op, Position at);
+  Value as_number(const Value& value, Position at);
+  Value as_bits(const Value& value, Position at);
+  void mix(const std::string& op, Value& left, Value& right, Position at);
+  std::optional<Value> converted_freely(const Value& value, const Type& to, Position at);
   Value failed(Position at, const std::string& text);
   Value error() const { return {elementary(Kind::error), false, 0, false, 0, "", {}, nullptr}; }
   Value temporary(const Type* type);
@@ -108,6 +112,7 @@ class Lowering {
   Value extreme_literal(const std::string& name, std::vector<Value> values, Position at);
   Value shift(const std::string& name, const std::vector<Value>& values, const Expression& e);
   Value string_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
+  Value plc_time(Kind kind);
   Value math_function(MathFunction function, const std::vector<Value>& values, const Expression& e,
                       const Type* expected);
   Value test_function(const std::string& name, const std::vector<Value>& values, const Expression& e);

@@ -161,9 +161,14 @@ Value Lowering::part(const Expression& e) {
   auto value = expression(*e.parts[0]);
   if (value.is_error()) return value;
   if (value.is_constant) return failed(e.at, "a part of a constant is not accessible");
-  const int whole = bits(value.type->kind);
-  if (!is_bits(value.type->kind) || whole < 8)
+  const auto kind = value.type->kind;
+  const int whole = bits(kind);
+  const bool of_bits = is_bits(kind) && whole >= 8;
+  const bool of_integer = is_integer(kind) && unit_.is_codesys(e.at);
+  if (!of_bits && !of_integer)
     return failed(e.at, "a part is of BYTE, WORD, DWORD or LWORD, not of " + value.type->name);
+  // A bit that is written may change the sign.
+  if (of_integer && is_signed(kind) && value.place.form == 0) value.place.form = cell_form(kind);
   const char size = e.name.empty() ? '?' : e.name[0];
   const bool plain_number = size >= '0' && size <= '9';
   const int width = size == 'X' || plain_number ? 1
@@ -206,7 +211,7 @@ Value Lowering::index(const Expression& e) {
     const auto& dimension = type.dimensions[i];
     stride /= dimension.high - dimension.low + 1;
     const auto& at = e.parts[i + 1]->at;
-    auto number = expression(*e.parts[i + 1]);
+    auto number = as_number(expression(*e.parts[i + 1]), at);
     if (number.is_error()) {
       good = false;
       continue;

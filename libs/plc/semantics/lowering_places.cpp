@@ -276,6 +276,7 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
       if (to.kind == Kind::boolean && (value.integer < 0 || value.integer > 1))
         return failed(at, "BOOL is TRUE or FALSE, not " + std::to_string(value.integer));
       if (to.kind != Kind::integer_literal && !fits(to, value.integer, value.large)) {
+        if (const auto free = converted_freely(value, to, at)) return *free;
         const auto shown = value.large ? std::to_string(static_cast<std::uint64_t>(value.integer))
                                        : std::to_string(value.integer);
         return failed(at, shown + " is outside " + limits_text(to) + " of " + to.name);
@@ -322,6 +323,7 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
     }
     return value;
   }
+  if (const auto free = converted_freely(value, to, at)) return *free;
   const auto& from_name = value.type->name;
   std::string text = "expected " + to.name + ", found " +
                      (from == Kind::integer_literal || from == Kind::real_literal ? "a number" : from_name);

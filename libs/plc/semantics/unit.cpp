@@ -207,7 +207,9 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
   }
   const auto offset = static_cast<std::uint32_t>(pou.initial.size());
   variable.place = {Place::Base::frame, static_cast<std::int32_t>(offset), 0, -1, 0, 0, true, ""};
-  if (block.section == VariableSection::input && pou.declaration->kind == PouKind::function_block) {
+  const bool writes_inputs = is_codesys(declaration.at);
+  if (block.section == VariableSection::input && pou.declaration->kind == PouKind::function_block &&
+      !writes_inputs) {
     variable.place.writable = false;
     variable.place.refusal = "is an input of the function block";
   }
@@ -269,8 +271,12 @@ void Unit::declare_variables(Pou& pou) {
   } else if (pou.declaration->kind == PouKind::function) {
     pou.initial.push_back(0);
   }
-  for (const auto& block : pou.declaration->blocks)
-    for (const auto& declaration : block.variables) declare_variable(pou, block, declaration);
+  // An export may use a constant before it declares it.
+  const bool sorts = is_codesys(pou.declaration->at);
+  for (const bool first : {true, false})
+    for (const auto& block : pou.declaration->blocks)
+      if (first == (block.constant || !sorts))
+        for (const auto& declaration : block.variables) declare_variable(pou, block, declaration);
 }
 
 void Unit::translate(Pou& pou) {

@@ -95,6 +95,9 @@ class Unit {
   std::uint32_t string_constant(const std::string& text);
   std::int32_t range_entry(Range range);
   std::uint32_t add_routine(Emitter& emitter, std::uint32_t frame);
+  /// Whether the rules of CoDeSys 2.3 for operands of different types hold here (docs/plc.md).
+  bool is_codesys(Position at) const { return codesys_files.contains(at.file); }
+  std::set<std::uint16_t> codesys_files;
   bool is_library(Position at) const { return at.file < library_files_; }
   /// Calls visit(pou, offset) for every instance of a function block in a variable of the type.
   static void each_block(const Type& type, std::uint32_t offset,
