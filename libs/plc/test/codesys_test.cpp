@@ -126,6 +126,12 @@ TEST(CodesysExport, WritesInputsAndUsesConstantsBeforeTheirDeclaration) {
   EXPECT_EQ(program.get("y"), "9");
 }
 
+TEST(CodesysExport, IsASourceOfAMachine) {
+  EXPECT_TRUE(is_compiled("LIMITS.EXP"));
+  EXPECT_TRUE(is_compiled("limits.exp"));
+  EXPECT_FALSE(is_compiled("limits.export"));
+}
+
 TEST(CodesysExport, LeavesOtherFilesStrict) {
   const std::string text = "PROGRAM main VAR b : BYTE; i : INT; END_VAR i := b + 1; END_PROGRAM\n";
   EXPECT_TRUE(compile({{"t.exp", text}}, interface_registers()).good());
