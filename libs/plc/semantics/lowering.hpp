@@ -12,6 +12,9 @@
 
 namespace trunnion::st {
 
+/// Whether a call gives or takes it.
+bool is_parameter(const Variable& variable, const Pou& pou);
+
 class Lowering {
  public:
   /// `pou` may be nullptr for constant expressions.
@@ -64,6 +67,15 @@ class Lowering {
   void initial_at(std::size_t jump, const Value& value);
   void fill(std::int32_t first, const std::vector<std::uint64_t>& cells);
   Value variable_value(Variable& variable);
+  /// The function block whose body or method this is; nullptr elsewhere.
+  Pou* instance() const;
+  /// The block that declares this body or method.
+  const Pou* declaring() const;
+  /// The address of the running instance.
+  Place self() const;
+  /// The variable of the unit, in a method also of the instance; nullptr when there is none.
+  Variable* own_variable(const Expression& name) const;
+  std::string hidden(const Variable& variable) const;
 
   // places
   std::int32_t cell(const Value& value, const Type& type);
@@ -91,6 +103,15 @@ class Lowering {
   const Type* instance_type(const Expression& e) const;
   bool has_own_control(const Expression& callee) const;
   Value call_function(Pou& function, const Expression& e);
+  struct MethodCall {
+    Pou* instance = nullptr;
+    MethodDeclaration method;
+    const Expression* of = nullptr;  ///< the variable that is the instance; none: the running one
+  };
+  std::optional<MethodCall> called_method(const Expression& callee) const;
+  bool is_accessible(const MethodCall& called) const;
+  Value call_method(const MethodCall& called, const Expression& e);
+  Value call_with_frame(const Pou& method, std::int32_t self, const Expression& e);
   void call_block(const Value& instance, const Expression& e);
   void call_program(Pou& program, const Expression& e);
   bool bind(const Pou& pou, const Expression& e, bool is_block, std::vector<const Argument*>& bound);

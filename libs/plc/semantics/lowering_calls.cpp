@@ -10,12 +10,6 @@
 namespace trunnion::st {
 namespace {
 
-bool is_parameter(const Variable& variable, const Pou& pou) {
-  return &variable != pou.result &&
-         (variable.section == VariableSection::input || variable.section == VariableSection::output ||
-          variable.section == VariableSection::in_out);
-}
-
 const char* section_name(VariableSection section) {
   return section == VariableSection::input    ? "an input"
          : section == VariableSection::output ? "an output"
@@ -32,14 +26,20 @@ bool declares_control(const PouDeclaration& pou) {
 
 }  // namespace
 
+bool is_parameter(const Variable& variable, const Pou& pou) {
+  return &variable != pou.result &&
+         (variable.section == VariableSection::input || variable.section == VariableSection::output ||
+          variable.section == VariableSection::in_out);
+}
+
 /// Of an instance before its value is known; nullptr when there is none.
 const Type* Lowering::instance_type(const Expression& e) const {
   if (e.kind == Expression::Kind::name) {
-    const Variable* variable = unit_.find_global(e.name);
-    if (pou_ != nullptr)
-      if (const auto found = pou_->names.find(e.name); found != pou_->names.end()) variable = found->second;
+    const Variable* variable = own_variable(e);
+    if (variable == nullptr && e.scope == NameScope::any) variable = unit_.find_global(e.name);
     if (variable == nullptr && in_test()) variable = unit_.find_instance(e.name);
     if (variable != nullptr) return variable->type;
+    if (e.name == "THIS" && instance() != nullptr) return &instance()->type;
     // A test names the variables of a program by the program.
     const auto* pou = in_test() ? unit_.find_pou(e.name) : nullptr;
     const bool is_program = pou != nullptr && pou->declaration->kind == PouKind::program;
@@ -61,6 +61,7 @@ const Type* Lowering::instance_type(const Expression& e) const {
 
 /// EN and ENO of units that declare them are parameters like others.
 bool Lowering::has_own_control(const Expression& callee) const {
+  if (const auto called = called_method(callee)) return declares_control(*called->method.declaration);
   if (const auto* type = instance_type(callee); type != nullptr && type->kind == Kind::block)
     return declares_control(*type->block->pou->declaration);
   if (callee.kind != Expression::Kind::name) return false;
@@ -107,13 +108,12 @@ Value Lowering::plain_call(const Expression& e, const Type* expected) {
   const auto& callee = *e.parts[0];
   Value none;
   none.type = elementary(Kind::none);
-  const bool plain = callee.kind == Expression::Kind::name;
+  if (const auto called = called_method(callee)) return call_method(*called, e);
+  const bool plain = callee.kind == Expression::Kind::name && callee.scope == NameScope::any;
   // A variable hides a function only when it can be called itself.
   const auto instance_named = [&] {
-    const auto* variable = unit_.find_global(callee.name);
-    if (pou_ != nullptr)
-      if (const auto found = pou_->names.find(callee.name); found != pou_->names.end())
-        variable = found->second;
+    const Variable* variable = own_variable(callee);
+    if (variable == nullptr) variable = unit_.find_global(callee.name);
     if (variable == nullptr && in_test()) variable = unit_.find_instance(callee.name);
     if (variable == nullptr) return false;
     return variable->type->kind == Kind::block ||

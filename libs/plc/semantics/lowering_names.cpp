@@ -74,8 +74,13 @@ Value Lowering::variable_value(Variable& variable) {
     return value;
   }
   value.place = variable.place;
-  if (variable.section == VariableSection::in_out && variable.place.base == Place::Base::frame)
-    value.place = {Place::Base::indirect, 0, variable.place.offset, -1, 0, 0, true, ""};
+  if (variable.place.base != Place::Base::frame) return value;
+  const bool of_instance = pou_ != nullptr && pou_->is_method() && variable.declared_in != nullptr;
+  auto reference = variable.place.offset;
+  if (of_instance) value.place.base = Place::Base::indirect, value.place.cell = self().cell;
+  if (variable.section != VariableSection::in_out) return value;
+  if (of_instance) emit_.add(Op::load_at, reference = emit_.temporary(), self().cell, variable.place.offset);
+  value.place = {Place::Base::indirect, 0, reference, -1, 0, 0, true, ""};
   return value;
 }
 
@@ -85,9 +90,20 @@ Value Lowering::name(const Expression& e, const Type* expected) {
     note_read(e, value);
     return value;
   };
-  if (pou_ != nullptr)
-    if (const auto found = pou_->names.find(e.name); found != pou_->names.end())
-      return noted(variable_value(*found->second));
+  if (auto* own = own_variable(e)) {
+    const auto refusal = hidden(*own);
+    return refusal.empty() ? noted(variable_value(*own)) : failed(e.at, refusal);
+  }
+  if (e.scope != NameScope::any)
+    return failed(e.at, instance() == nullptr
+                            ? "THIS and SUPER are for function blocks and their methods"
+                            : "'" + instance()->declaration->text + "' has no variable '" + e.text + "'");
+  if (e.name == "THIS" && instance() != nullptr) {
+    Value value;
+    value.type = &instance()->type;
+    value.place = self();
+    return value;
+  }
   if (auto* global = unit_.find_global(e.name)) return noted(variable_value(*global));
   if (expected != nullptr && expected->kind == Kind::enumeration)
     if (const auto* enumerator = expected->enumerator(e.name))
@@ -116,7 +132,7 @@ Value Lowering::name(const Expression& e, const Type* expected) {
 
 Value Lowering::member(const Expression& e) {
   const auto& owner = *e.parts[0];
-  if (owner.kind == Expression::Kind::name && (pou_ == nullptr || !pou_->names.contains(owner.name)))
+  if (owner.kind == Expression::Kind::name && own_variable(owner) == nullptr)
     if (const auto* type = unit_.find_global(owner.name) == nullptr ? unit_.named_type(owner.name) : nullptr;
         type != nullptr && type->kind == Kind::enumeration)
       if (const auto* enumerator = type->enumerator(e.name)) return constant_integer(type, enumerator->value);
@@ -136,8 +152,9 @@ Value Lowering::member(const Expression& e) {
     const bool is_program = pou.declaration->kind == PouKind::program;
     if (found == pou.names.end()) return failed(e.at, value.type->name + " has no variable '" + e.text + "'");
     const auto& variable = *found->second;
+    const bool is_open = variable.section == VariableSection::local && variable.access == Access::public_;
     const bool is_public =
-        variable.section == VariableSection::input || variable.section == VariableSection::output;
+        variable.section == VariableSection::input || variable.section == VariableSection::output || is_open;
     if (!is_public && !(is_program && variable.place.base != Place::Base::none))
       return failed(e.at, "'" + e.text + "' is inside " + value.type->name +
                               "; only its inputs and outputs are accessible");
@@ -148,8 +165,10 @@ Value Lowering::member(const Expression& e) {
       return value;
     }
     value.place = moved(value.place, variable.place.offset);
-    value.place.writable = variable.section == VariableSection::input || is_program;
-    value.place.refusal = "output of a function block is set by the block alone";
+    value.place.writable =
+        variable.section == VariableSection::input || is_program || (is_open && variable.place.writable);
+    value.place.refusal =
+        is_open ? variable.place.refusal : "output of a function block is set by the block alone";
     return value;
   }
   return failed(

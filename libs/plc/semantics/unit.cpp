@@ -8,6 +8,19 @@
 #include "plc/semantics/lowering.hpp"
 
 namespace trunnion::st {
+namespace {
+
+bool keeps_nothing(const Pou& pou) {
+  return pou.declaration->kind == PouKind::function || pou.declaration->kind == PouKind::method;
+}
+
+const char* kind_text(const Pou& pou) { return pou.is_method() ? "a method" : "a function"; }
+
+}  // namespace
+
+std::string title_of(const Pou& pou) {
+  return (pou.is_method() ? pou.instance->declaration->text + "." : "") + pou.declaration->text;
+}
 
 Unit::Unit(const SourceTree& tree, Diagnostics& diagnostics, const RegisterNames& registers,
            std::uint16_t library_files)
@@ -28,6 +41,7 @@ void Unit::run() {
     if (const auto found = pous.find(declaration.name);
         found != pous.end() && found->second.declaration == &declaration && !is_library(declaration.at))
       translated(declaration.name, declaration.at);
+  translate_methods();
   add_tasks();
   finish();
 }
@@ -66,18 +80,21 @@ Pou* Unit::find_pou(const std::string& upper) {
 
 Pou* Unit::translated(const std::string& upper, Position at) {
   auto* pou = find_pou(upper);
-  if (pou == nullptr) return nullptr;
-  if (pou->state == Pou::State::in_progress) {
-    diagnostics_.error(at, "'" + pou->declaration->text +
+  return pou != nullptr && complete(*pou, at) ? pou : nullptr;
+}
+
+bool Unit::complete(Pou& pou, Position at) {
+  if (pou.state == Pou::State::in_progress) {
+    diagnostics_.error(at, "'" + title_of(pou) +
                                "' calls or contains itself; recursion is not permitted (IEC 61131-3, 6.6.1)");
-    return nullptr;
+    return false;
   }
-  if (pou->state == Pou::State::declared) {
-    pou->state = Pou::State::in_progress;
-    translate(*pou);
-    pou->state = Pou::State::done;
+  if (pou.state == Pou::State::declared) {
+    pou.state = Pou::State::in_progress;
+    translate(pou);
+    pou.state = Pou::State::done;
   }
-  return pou;
+  return true;
 }
 
 void Unit::declare_globals(const VariableBlock& block) {
@@ -142,7 +159,7 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
                                            std::to_string(twice->second->at.line));
     return;
   }
-  const bool is_function = pou.declaration->kind == PouKind::function;
+  const bool is_function = keeps_nothing(pou);
   auto& variable = pou.variables.emplace_back();
   variable.name = declaration.name;
   variable.text = declaration.text;
@@ -150,6 +167,8 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
   variable.section = block.section;
   variable.retain = block.retain;
   variable.is_constant = block.constant;
+  variable.access = block.access;
+  if (pou.declaration->kind == PouKind::function_block) variable.declared_in = &pou;
   variable.type = type_of(*declaration.type, &pou);
   pou.names[variable.name] = &variable;
   if (variable.type->kind == Kind::error) {
@@ -174,11 +193,12 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
     return;
   }
   if (is_function && block.retain)
-    diagnostics_.error(block.at, "a function keeps nothing: RETAIN is not permitted");
+    diagnostics_.error(block.at, std::string(kind_text(pou)) + " keeps nothing: RETAIN is not permitted");
   bool contains_block = type.kind == Kind::block;
   each_block(type, 0, [&](const Pou&, std::uint32_t) { contains_block = true; });
   if (contains_block && is_function && block.section != VariableSection::in_out)
-    diagnostics_.error(declaration.at, "a function keeps nothing, so it cannot contain the function block '" +
+    diagnostics_.error(declaration.at, std::string(kind_text(pou)) +
+                                           " keeps nothing, so it cannot contain the function block '" +
                                            declaration.text + "'; pass it as VAR_IN_OUT");
   if (contains_block &&
       (block.section == VariableSection::temporary || block.section == VariableSection::input))
@@ -199,7 +219,7 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
       constant(*declaration.initial, type, &pou, variable.constant);
   }
   if (!declaration.location.empty()) {
-    if (block.section != VariableSection::local || pou.declaration->kind == PouKind::function)
+    if (block.section != VariableSection::local || is_function)
       diagnostics_.error(declaration.location_at,
                          "AT is for VAR of programs and function blocks and for VAR_GLOBAL");
     locate(variable, declaration);
@@ -271,6 +291,10 @@ void Unit::declare_variables(Pou& pou) {
   } else if (pou.declaration->kind == PouKind::function) {
     pou.initial.push_back(0);
   }
+  if (pou.is_method()) {
+    pou.self = static_cast<std::uint32_t>(pou.initial.size());
+    pou.initial.push_back(0);
+  }
   // An export may use a constant before it declares it.
   const bool sorts = is_codesys(pou.declaration->at);
   for (const bool first : {true, false})
@@ -280,10 +304,13 @@ void Unit::declare_variables(Pou& pou) {
 }
 
 void Unit::translate(Pou& pou) {
+  blocks_.push_back({&pou});
+  pou.type.block = &blocks_.back();
   declare_variables(pou);
+  check_methods(pou);
   pou.frame = static_cast<std::uint32_t>(pou.initial.size());
   Lowering lowering(*this, &pou, pou.frame);
-  const bool is_function = pou.declaration->kind == PouKind::function;
+  const bool is_function = keeps_nothing(pou);
   for (const auto& variable : pou.variables)
     if (variable.section == VariableSection::temporary ||
         (is_function &&
@@ -295,11 +322,10 @@ void Unit::translate(Pou& pou) {
   pou.routine = add_routine(lowering.emitter(), pou.frame);
   pou.type.cells = pou.frame;
   pou.type.initial = pou.initial;
-  blocks_.push_back({&pou});
-  pou.type.block = &blocks_.back();
   order.push_back(&pou);
-  if (!is_library(pou.declaration->at)) warn_unused(pou);
-  if (pou.declaration->kind == PouKind::function_block || is_configured(pou)) return;
+  // A variable of a function block may be used by a method, which is translated later.
+  if (!is_library(pou.declaration->at) && pou.declaration->kind != PouKind::function_block) warn_unused(pou);
+  if (pou.declaration->kind == PouKind::function_block || pou.is_method() || is_configured(pou)) return;
   pou.base = allocate(pou.initial);
   if (is_function) return;
   for (const auto& variable : pou.variables)

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ namespace trunnion::st {
 /// Names of registers, in capitals.
 using RegisterNames = std::map<std::string, RegisterAddress, std::less<>>;
 
+struct Pou;
+
 struct Variable {
   std::string name, text;
   Position at;
@@ -32,9 +35,11 @@ struct Variable {
   Place place;  ///< of in_out: the cell of the address
   bool used = false;
   std::vector<std::uint64_t> initial;  ///< cells
+  const Pou* declared_in = nullptr;    ///< of an instance of a function block: the block that declares it
+  Access access = Access::protected_;
 };
 
-/// A program, function, function block or test while it is translated and afterwards.
+/// A program, function, function block, test or method while it is translated and afterwards.
 struct Pou {
   enum class State { declared, in_progress, done, failed };
   const PouDeclaration* declaration = nullptr;
@@ -48,6 +53,23 @@ struct Pou {
   std::vector<std::uint64_t> initial;  ///< cells of the frame
   std::vector<std::uint32_t> timers;   ///< cells of the frame
   std::vector<Cells> retained;         ///< cells of the frame
+  // Of a method. Its frame is among the intermediate results of whoever calls it.
+  Pou* instance = nullptr;           ///< the function block whose variables it uses
+  const Pou* declared_in = nullptr;  ///< the one that declares it
+  std::uint32_t self = 0;            ///< cell of the frame with the address of the instance
+  /// Of a function block: its methods, by the block that declares them and their name.
+  std::map<std::string, std::unique_ptr<Pou>, std::less<>> methods;
+
+  bool is_method() const { return instance != nullptr; }
+};
+
+/// As messages and the cross reference name it: Block.method.
+std::string title_of(const Pou& pou);
+
+/// The method of a function block that a name means.
+struct MethodDeclaration {
+  const PouDeclaration* declaration = nullptr;  ///< none: there is none
+  const Pou* declared_in = nullptr;
 };
 
 struct Block {
@@ -82,6 +104,9 @@ class Unit {
   /// The unit, translated; nullptr when there is none or it contains itself, which is reported at `at`.
   Pou* translated(const std::string& upper, Position at);
   Pou* find_pou(const std::string& upper);
+  static MethodDeclaration find_method(const Pou& block, const std::string& upper);
+  /// The method for instances of `instance`, translated; nullptr as for translated().
+  Pou* method(Pou& instance, const MethodDeclaration& found, Position at);
   Variable* find_global(const std::string& upper);
   /// An enumerated value of any type; nullptr when none or several have the name.
   const Enumerator* find_enumerator(const std::string& upper, const Type** type);
@@ -131,6 +156,9 @@ class Unit {
   void declare_variables(Pou& pou);
   void declare_variable(Pou& pou, const VariableBlock& block, const VariableDeclaration& declaration);
   void translate(Pou& pou);
+  bool complete(Pou& pou, Position at);
+  void check_methods(const Pou& block);
+  void translate_methods();
   bool locate(Variable& variable, const VariableDeclaration& declaration);
   void retain(const RegisterAddress& first, std::uint32_t count, Position at);
   void warn_unused(const Pou& pou);

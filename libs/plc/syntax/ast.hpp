@@ -22,6 +22,9 @@ struct Argument {
   ExpressionPtr value;
 };
 
+/// THIS.name is a variable or method of the instance, SUPER.name one of the function block that is extended.
+enum class NameScope { any, instance, base };
+
 struct Expression {
   enum class Kind {
     integer,    ///< text: digits, base
@@ -45,6 +48,7 @@ struct Expression {
   Position at;
   std::string text;  ///< as written
   std::string name;  ///< in capitals
+  NameScope scope = NameScope::any;
   int base = 10;
   std::vector<ExpressionPtr> parts;
   std::vector<ExpressionPtr> repeat;  ///< of lists: count of each part or nothing
@@ -132,8 +136,12 @@ struct TypeSpec {
 
 enum class VariableSection { local, input, output, in_out, temporary, global, external };
 
+/// From where a method or a variable of VAR is used; INTERNAL is public_, as there are no namespaces.
+enum class Access { public_, protected_, private_ };
+
 struct VariableBlock {
   VariableSection section = VariableSection::local;
+  Access access = Access::protected_;
   bool retain = false, constant = false;
   Position at;
   std::vector<VariableDeclaration> variables;
@@ -141,7 +149,7 @@ struct VariableBlock {
   std::vector<ExpressionPtr> initials;
 };
 
-enum class PouKind { program, function, function_block, test };
+enum class PouKind { program, function, function_block, test, method };
 
 /// A program organization unit.
 struct PouDeclaration {
@@ -152,6 +160,8 @@ struct PouDeclaration {
   std::vector<VariableBlock> blocks;
   Statements body;
   Position end;
+  Access access = Access::public_;      ///< of a method
+  std::vector<PouDeclaration> methods;  ///< of a function block
 };
 
 struct TypeDeclaration {

@@ -200,6 +200,33 @@ void ExpressionParser::refuse_pointer() {
   has_refused_pointer_ = true;
 }
 
+/// THIS. and SUPER., with or without ^ behind the word; a variable may have these names.
+bool ExpressionParser::at_scoped_name() const {
+  const auto& next = ahead();
+  if (next.kind != TokenKind::symbol || !(is_word("THIS") || is_word("SUPER"))) return false;
+  return next.text == "." || next.text == "^" || (is_word("SUPER") && next.text == "(");
+}
+
+/// THIS.name, SUPER.name; SUPER() is the body of the function block that is extended and has no name.
+ExpressionPtr ExpressionParser::scoped_name() {
+  const auto word = take();
+  const bool base = word.upper == "SUPER";
+  accept_symbol("^");
+  auto node = make_name(word.text, word.at);
+  if (!base && !is_symbol(".")) return node;
+  node->scope = base ? NameScope::base : NameScope::instance;
+  if (base && is_symbol("(")) {
+    node->name.clear();
+    return node;
+  }
+  expect_symbol(".", "behind " + word.upper);
+  const auto token = expect_name("the name of a variable or method behind '.'");
+  node->name = token.upper;
+  node->text = token.text;
+  node->at = token.at;
+  return node;
+}
+
 ExpressionPtr ExpressionParser::designator() {
   ExpressionPtr node;
   if (now().kind == TokenKind::direct) {
@@ -207,6 +234,8 @@ ExpressionPtr ExpressionParser::designator() {
     node = make(Expression::Kind::direct, token.at);
     node->name = token.text;
     node->text = "%" + token.text;
+  } else if (at_scoped_name()) {
+    node = scoped_name();
   } else {
     const auto token = expect_name("a variable");
     const auto edge = edges_.find(token.upper);

@@ -197,7 +197,8 @@ VariableBlock DeclarationParser::variable_block() {
       block.retain = true;
     else if (accept_word("CONSTANT"))
       block.constant = true;
-    else if (!accept_word("NON_RETAIN"))
+    else if (!accept_word("NON_RETAIN") &&
+             !(block.section == VariableSection::local && accept_access(block.access)))
       break;
   }
   // What a call gives is no constant: VAR_INPUT CONSTANT of CoDeSys is VAR_INPUT.
@@ -229,7 +230,7 @@ void DeclarationParser::refuse_edge(const VariableDeclaration& variable) {
 
 bool DeclarationParser::at_pou_end() const {
   return is_word("END_PROGRAM") || is_word("END_FUNCTION") || is_word("END_FUNCTION_BLOCK") ||
-         is_word("END_TEST") || is_word("VAR");
+         is_word("END_METHOD") || is_word("END_TEST") || is_word("VAR");
 }
 
 /// The edge detections of the inputs of one list, and their calls.
@@ -285,6 +286,20 @@ Statements DeclarationParser::edge_calls(PouDeclaration& pou) {
   return calls;
 }
 
+void DeclarationParser::variable_blocks(PouDeclaration& pou) {
+  while (now().kind == TokenKind::identifier && now().upper.rfind("VAR", 0) == 0 &&
+         (ahead().kind != TokenKind::symbol)) {
+    if (is_word("VAR_GLOBAL")) {
+      tree_.globals.push_back(variable_block());
+      continue;
+    }
+    static const std::string_view sections[] = {"VAR",        "VAR_INPUT", "VAR_OUTPUT",
+                                                "VAR_IN_OUT", "VAR_TEMP",  "VAR_EXTERNAL"};
+    if (std::find(std::begin(sections), std::end(sections), now().upper) == std::end(sections)) break;
+    pou.blocks.push_back(variable_block());
+  }
+}
+
 void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view what) {
   PouDeclaration pou;
   has_refused_pointer_ = false;
@@ -307,21 +322,17 @@ void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view
     pou.result = type_spec();
   }
   accept_symbol(";");
-  while (now().kind == TokenKind::identifier && now().upper.rfind("VAR", 0) == 0 &&
-         (ahead().kind != TokenKind::symbol)) {
-    if (is_word("VAR_GLOBAL")) {
-      tree_.globals.push_back(variable_block());
-      continue;
-    }
-    static const std::string_view sections[] = {"VAR",        "VAR_INPUT", "VAR_OUTPUT",
-                                                "VAR_IN_OUT", "VAR_TEMP",  "VAR_EXTERNAL"};
-    if (std::find(std::begin(sections), std::end(sections), now().upper) == std::end(sections)) break;
-    pou.blocks.push_back(variable_block());
-  }
+  variable_blocks(pou);
+  const bool has_methods = kind == PouKind::function_block;
+  if (has_methods) methods(pou);
   pou.body = edge_calls(pou);
-  auto body = statements({"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"});
+  for (;;) {
+    auto body = statements({"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"});
+    std::move(body.begin(), body.end(), std::back_inserter(pou.body));
+    if (!has_methods || !at_method()) break;
+    methods(pou);
+  }
   edges_.clear();
-  std::move(body.begin(), body.end(), std::back_inserter(pou.body));
   pou.end = now().at;
   expect_word(end, "at the end of " + std::string(what));
   accept_symbol(";");

@@ -33,7 +33,7 @@ bool StatementParser::at_declaration() const {
   for (const auto* word : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL",
                            "END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"})
     if (is_word(word)) return true;
-  return at_configuration();
+  return at_configuration() || at_method();
 }
 
 // To behind the next ';', or to the end of the enclosing statement.

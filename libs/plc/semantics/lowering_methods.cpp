@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Methods: their variables, the running instance, calls. The frame of a method is among the intermediate
+// results of its caller, so a task that is interrupted in one keeps it.
+#include <optional>
+#include <vector>
+
+#include "plc/semantics/lowering.hpp"
+
+namespace trunnion::st {
+
+Pou* Lowering::instance() const {
+  if (pou_ == nullptr) return nullptr;
+  if (pou_->is_method()) return pou_->instance;
+  return pou_->declaration->kind == PouKind::function_block ? pou_ : nullptr;
+}
+
+const Pou* Lowering::declaring() const {
+  return pou_ != nullptr && pou_->is_method() ? pou_->declared_in : instance();
+}
+
+Place Lowering::self() const {
+  if (!pou_->is_method()) return {Place::Base::frame, 0, 0, -1, 0, 0, true, ""};
+  return {Place::Base::indirect, 0, static_cast<std::int32_t>(pou_->self), -1, 0, 0, true, ""};
+}
+
+Variable* Lowering::own_variable(const Expression& name) const {
+  if (pou_ == nullptr || name.scope == NameScope::base) return nullptr;
+  if (name.scope == NameScope::any)
+    if (const auto found = pou_->names.find(name.name); found != pou_->names.end()) return found->second;
+  const auto* block = instance();
+  if (block == nullptr) return nullptr;
+  const auto found = block->names.find(name.name);
+  return found == block->names.end() ? nullptr : found->second;
+}
+
+/// Why the method must not use the variable of its block, or nothing.
+std::string Lowering::hidden(const Variable& variable) const {
+  if (variable.declared_in == nullptr) return "";
+  if (variable.section == VariableSection::temporary && pou_->declaration->kind == PouKind::method)
+    return "VAR_TEMP '" + variable.text + "' has a value in the body of the function block only";
+  return "";
+}
+
+std::optional<Lowering::MethodCall> Lowering::called_method(const Expression& callee) const {
+  MethodCall result;
+  if (callee.kind == Expression::Kind::name) {
+    const auto* variable = own_variable(callee);
+    result.instance = instance();
+    if (result.instance == nullptr || (variable != nullptr && variable->type->kind == Kind::block))
+      return std::nullopt;
+    result.method = Unit::find_method(*result.instance, callee.name);
+  } else if (callee.kind == Expression::Kind::member) {
+    const auto* type = instance_type(*callee.parts[0]);
+    if (type == nullptr || type->kind != Kind::block || type->block->pou->names.contains(callee.name))
+      return std::nullopt;
+    result.instance = type->block->pou;
+    result.of = callee.parts[0].get();
+    result.method = Unit::find_method(*result.instance, callee.name);
+  }
+  if (result.method.declaration == nullptr) return std::nullopt;
+  return result;
+}
+
+bool Lowering::is_accessible(const MethodCall& called) const {
+  const auto access = called.method.declaration->access;
+  if (access == Access::public_) return true;
+  return called.of == nullptr && (access == Access::protected_ || called.method.declared_in == declaring());
+}
+
+Value Lowering::call_method(const MethodCall& called, const Expression& e) {
+  const auto at = e.parts[0]->at;
+  const auto& declaration = *called.method.declaration;
+  if (!is_accessible(called))
+    return failed(at, "the method '" + declaration.text + "' of '" +
+                          called.method.declared_in->declaration->text + "' is " +
+                          (declaration.access == Access::private_ ? "PRIVATE" : "PROTECTED"));
+  auto place = called.of == nullptr ? self() : Place{};
+  if (called.of != nullptr) {
+    const auto instance = target(*called.of);
+    if (instance.is_error()) return instance;
+    auto access = writing();
+    access.calls = true;
+    note(*called.of, instance, access);
+    place = instance.place;
+  }
+  const auto* method = unit_.method(*called.instance, called.method, at);
+  return method == nullptr ? error() : call_with_frame(*method, address(place), e);
+}
+
+Value Lowering::call_with_frame(const Pou& method, std::int32_t self, const Expression& e) {
+  std::vector<const Argument*> bound;
+  if (!bind(method, e, false, bound)) return error();
+  const auto start = emit_.temporary(method.frame);
+  const auto value_of = [&](const Variable& variable, bool writable) {
+    Value value;
+    value.type = variable.type;
+    value.place = {Place::Base::frame, start + variable.place.offset, 0, -1, 0, 0,
+                   writable,           "is an intermediate result"};
+    return value;
+  };
+  emit_.add(Op::move, start + static_cast<std::int32_t>(method.self), self);
+  std::size_t i = 0;
+  for (const auto& variable : method.variables) {
+    if (!is_parameter(variable, method)) continue;
+    const auto* argument = bound[i++];
+    if (variable.section == VariableSection::output) continue;
+    const auto parameter = value_of(variable, true);
+    if (variable.section == VariableSection::in_out)
+      emit_.add(Op::move, parameter.place.offset, reference(*argument, variable));
+    else if (argument == nullptr)
+      fill(parameter.place.offset, variable.initial);
+    else
+      store(parameter,
+            converted(expression(*argument->value, variable.type), *variable.type, argument->value->at));
+  }
+  const auto frame = emit_.temporary();
+  emit_.add(Op::address, frame, start);
+  emit_.add(Op::call_at, static_cast<std::int32_t>(method.routine), frame);
+  i = 0;
+  for (const auto& variable : method.variables) {
+    if (!is_parameter(variable, method)) continue;
+    const auto* argument = bound[i++];
+    if (argument != nullptr && variable.section == VariableSection::output)
+      give_output(*argument, value_of(variable, false));
+  }
+  if (method.result != nullptr) return value_of(*method.result, false);
+  Value none;
+  none.type = elementary(Kind::none);
+  return none;
+}
+
+}  // namespace trunnion::st
