@@ -76,6 +76,7 @@ class Lowering {
   /// The variable of the unit, in a method also of the instance; nullptr when there is none.
   Variable* own_variable(const Expression& name) const;
   std::string hidden(const Variable& variable) const;
+  std::string scope_problem(const Expression& name) const;
 
   // places
   std::int32_t cell(const Value& value, const Type& type);
@@ -108,6 +109,7 @@ class Lowering {
     MethodDeclaration method;
     const Expression* of = nullptr;  ///< the variable that is the instance; none: the running one
   };
+  MethodDeclaration own_method(const Expression& callee) const;
   std::optional<MethodCall> called_method(const Expression& callee) const;
   bool is_accessible(const MethodCall& called) const;
   Value call_method(const MethodCall& called, const Expression& e);

@@ -149,6 +149,8 @@ Value Lowering::plain_call(const Expression& e, const Type* expected) {
   note(callee, instance, access);
   if (instance.type->kind != Kind::block)
     return failed(callee.at, "'" + callee.text + "' is " + instance.type->name + " and cannot be called");
+  if (instance.type->block->pou->declaration->is_class)
+    return failed(callee.at, "'" + callee.text + "' is an instance of a class: call one of its methods");
   call_block(instance, e);
   return none;
 }

@@ -38,7 +38,31 @@ std::string Lowering::hidden(const Variable& variable) const {
   if (variable.declared_in == nullptr) return "";
   if (variable.section == VariableSection::temporary && pou_->declaration->kind == PouKind::method)
     return "VAR_TEMP '" + variable.text + "' has a value in the body of the function block only";
+  if (variable.access == Access::private_ && variable.declared_in != declaring())
+    return "'" + variable.text + "' is PRIVATE in '" + variable.declared_in->declaration->text + "'";
   return "";
+}
+
+/// Why THIS.name or SUPER.name means nothing.
+std::string Lowering::scope_problem(const Expression& name) const {
+  if (instance() == nullptr) return "THIS and SUPER are for function blocks and their methods";
+  const auto& own = declaring()->declaration->text;
+  if (name.scope == NameScope::instance) return "'" + own + "' has no variable '" + name.text + "'";
+  if (declaring()->parent == nullptr) return "'" + own + "' extends no function block, so it has no SUPER";
+  const auto& parent = *declaring()->parent->declaration;
+  return "SUPER is for methods, and '" + parent.text + "' has no method '" + name.text + "'";
+}
+
+/// A method of the running instance. A PRIVATE one of the block whose code this is comes first: others cannot
+/// override it.
+MethodDeclaration Lowering::own_method(const Expression& callee) const {
+  const auto* parent = declaring()->parent;
+  if (callee.scope == NameScope::base && parent == nullptr) return {};
+  if (callee.scope == NameScope::base && callee.name.empty()) return {parent->declaration, parent};
+  if (callee.scope == NameScope::base) return Unit::find_method(*parent, callee.name);
+  const auto own = Unit::find_method(*declaring(), callee.name);
+  const bool is_private = own.declared_in == declaring() && own.declaration->access == Access::private_;
+  return is_private ? own : Unit::find_method(*instance(), callee.name);
 }
 
 std::optional<Lowering::MethodCall> Lowering::called_method(const Expression& callee) const {
@@ -48,7 +72,7 @@ std::optional<Lowering::MethodCall> Lowering::called_method(const Expression& ca
     result.instance = instance();
     if (result.instance == nullptr || (variable != nullptr && variable->type->kind == Kind::block))
       return std::nullopt;
-    result.method = Unit::find_method(*result.instance, callee.name);
+    result.method = own_method(callee);
   } else if (callee.kind == Expression::Kind::member) {
     const auto* type = instance_type(*callee.parts[0]);
     if (type == nullptr || type->kind != Kind::block || type->block->pou->names.contains(callee.name))
@@ -70,6 +94,10 @@ bool Lowering::is_accessible(const MethodCall& called) const {
 Value Lowering::call_method(const MethodCall& called, const Expression& e) {
   const auto at = e.parts[0]->at;
   const auto& declaration = *called.method.declaration;
+  if (declaration.is_class) return failed(at, "'" + declaration.text + "' is a class and has no body");
+  const bool is_method = declaration.kind == PouKind::method;
+  if (is_method && e.parts[0]->scope == NameScope::base && declaration.is_abstract)
+    return failed(at, "the method '" + declaration.text + "' is ABSTRACT and has no statements");
   if (!is_accessible(called))
     return failed(at, "the method '" + declaration.text + "' of '" +
                           called.method.declared_in->declaration->text + "' is " +

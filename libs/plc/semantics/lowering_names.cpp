@@ -94,10 +94,7 @@ Value Lowering::name(const Expression& e, const Type* expected) {
     const auto refusal = hidden(*own);
     return refusal.empty() ? noted(variable_value(*own)) : failed(e.at, refusal);
   }
-  if (e.scope != NameScope::any)
-    return failed(e.at, instance() == nullptr
-                            ? "THIS and SUPER are for function blocks and their methods"
-                            : "'" + instance()->declaration->text + "' has no variable '" + e.text + "'");
+  if (e.scope != NameScope::any) return failed(e.at, scope_problem(e));
   if (e.name == "THIS" && instance() != nullptr) {
     Value value;
     value.type = &instance()->type;

@@ -343,7 +343,15 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
 void Lowering::initialize(const Variable& variable) {
   if (variable.type->kind == Kind::error || variable.place.base != Place::Base::frame) return;
   const auto mark = emit_.mark();
-  fill(variable.place.offset, variable.initial);
+  if (pou_->is_method() && variable.declared_in != nullptr) {
+    auto place = self();
+    place.offset = variable.place.offset;
+    const auto from = emit_.temporary(), to = address(place);
+    emit_.constant(from, unit_.allocate(variable.initial));
+    emit_.add(Op::copy_block, to, from, static_cast<std::int32_t>(variable.initial.size()));
+  } else {
+    fill(variable.place.offset, variable.initial);
+  }
   emit_.release(mark);
 }
 

@@ -152,7 +152,8 @@ void Unit::each_block(const Type& type, std::uint32_t offset,
   }
 }
 
-void Unit::declare_variable(Pou& pou, const VariableBlock& block, const VariableDeclaration& declaration) {
+void Unit::declare_variable(Pou& pou, const Pou& declared_in, const VariableBlock& block,
+                            const VariableDeclaration& declaration) {
   if (const auto twice = pou.names.find(declaration.name); twice != pou.names.end()) {
     diagnostics_.error(declaration.at, "the variable '" + declaration.text +
                                            "' is declared already in line " +
@@ -168,7 +169,7 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
   variable.retain = block.retain;
   variable.is_constant = block.constant;
   variable.access = block.access;
-  if (pou.declaration->kind == PouKind::function_block) variable.declared_in = &pou;
+  if (pou.declaration->kind == PouKind::function_block) variable.declared_in = &declared_in;
   variable.type = type_of(*declaration.type, &pou);
   pou.names[variable.name] = &variable;
   if (variable.type->kind == Kind::error) {
@@ -294,18 +295,29 @@ void Unit::declare_variables(Pou& pou) {
   if (pou.is_method()) {
     pou.self = static_cast<std::uint32_t>(pou.initial.size());
     pou.initial.push_back(0);
+    if (pou.declaration->kind == PouKind::function_block) return;  // SUPER() has none of its own
   }
+  // Those of an extended block come first, in its own order.
+  std::vector<const Pou*> lineage;
+  for (const Pou* block = &pou; block != nullptr; block = block->parent)
+    lineage.insert(lineage.begin(), block);
+  for (const auto* block : lineage) declare_blocks(pou, *block);
+}
+
+void Unit::declare_blocks(Pou& pou, const Pou& declared_in) {
   // An export may use a constant before it declares it.
-  const bool sorts = is_codesys(pou.declaration->at);
+  const bool sorts = is_codesys(declared_in.declaration->at);
   for (const bool first : {true, false})
-    for (const auto& block : pou.declaration->blocks)
+    for (const auto& block : declared_in.declaration->blocks)
       if (first == (block.constant || !sorts))
-        for (const auto& declaration : block.variables) declare_variable(pou, block, declaration);
+        for (const auto& declaration : block.variables)
+          declare_variable(pou, declared_in, block, declaration);
 }
 
 void Unit::translate(Pou& pou) {
   blocks_.push_back({&pou});
   pou.type.block = &blocks_.back();
+  find_parent(pou);
   declare_variables(pou);
   check_methods(pou);
   pou.frame = static_cast<std::uint32_t>(pou.initial.size());
@@ -316,6 +328,10 @@ void Unit::translate(Pou& pou) {
         (is_function &&
          (variable.section == VariableSection::local || variable.section == VariableSection::output)))
       lowering.initialize(variable);
+  if (pou.is_method() && pou.declaration->kind == PouKind::function_block)
+    for (const auto& variable : pou.instance->variables)
+      if (variable.section == VariableSection::temporary && variable.declared_in == pou.declared_in)
+        lowering.initialize(variable);
   lowering.body(pou.declaration->body);
   pou.frame = lowering.emitter().frame();
   pou.initial.resize(pou.frame, 0);
@@ -347,7 +363,7 @@ void Unit::translate(Pou& pou) {
 
 void Unit::warn_unused(const Pou& pou) {
   for (const auto& variable : pou.variables)
-    if (!variable.used &&
+    if (!variable.used && (variable.declared_in == nullptr || variable.declared_in == &pou) &&
         (variable.section == VariableSection::local || variable.section == VariableSection::temporary ||
          variable.section == VariableSection::external))
       diagnostics_.warning(variable.at, "the variable '" + variable.text + "' is not used");

@@ -54,9 +54,10 @@ struct Pou {
   std::vector<std::uint32_t> timers;   ///< cells of the frame
   std::vector<Cells> retained;         ///< cells of the frame
   // Of a method. Its frame is among the intermediate results of whoever calls it.
-  Pou* instance = nullptr;           ///< the function block whose variables it uses
+  Pou* instance = nullptr;           ///< the function block whose variables it uses; SUPER() is a method too
   const Pou* declared_in = nullptr;  ///< the one that declares it
   std::uint32_t self = 0;            ///< cell of the frame with the address of the instance
+  const Pou* parent = nullptr;       ///< of a function block: the one that it extends
   /// Of a function block: its methods, by the block that declares them and their name.
   std::map<std::string, std::unique_ptr<Pou>, std::less<>> methods;
 
@@ -154,10 +155,16 @@ class Unit {
   const Type* subrange(const TypeSpec& spec, const Type* base, Pou* context);
   const Type* build(const TypeSpec& spec, const std::string& name, Pou* context);
   void declare_variables(Pou& pou);
-  void declare_variable(Pou& pou, const VariableBlock& block, const VariableDeclaration& declaration);
+  void declare_variable(Pou& pou, const Pou& declared_in, const VariableBlock& block,
+                        const VariableDeclaration& declaration);
+  void declare_blocks(Pou& pou, const Pou& declared_in);
+  void find_parent(Pou& pou);
   void translate(Pou& pou);
   bool complete(Pou& pou, Position at);
   void check_methods(const Pou& block);
+  void check_override(const Pou& block, const PouDeclaration& declaration);
+  void check_abstract(const Pou& block);
+  void compare_overrides(const Pou& block);
   void translate_methods();
   bool locate(Variable& variable, const VariableDeclaration& declaration);
   void retain(const RegisterAddress& first, std::uint32_t count, Position at);

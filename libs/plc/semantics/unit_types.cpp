@@ -99,6 +99,12 @@ const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* cont
         diagnostics_.error(spec.at, "'" + spec.text + "' is no type and no function block");
         return elementary(Kind::error);
       }
+      if (pou->declaration->is_abstract) {
+        diagnostics_.error(
+            spec.at,
+            "'" + spec.text + "' is ABSTRACT and has no instances; declare one of a block that extends it");
+        return elementary(Kind::error);
+      }
       return translated(spec.name, spec.at) == nullptr ? elementary(Kind::error) : &pou->type;
     }
   if (type == nullptr) {

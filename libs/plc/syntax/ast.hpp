@@ -151,7 +151,13 @@ struct VariableBlock {
 
 enum class PouKind { program, function, function_block, test, method };
 
-/// A program organization unit.
+/// A name behind EXTENDS or IMPLEMENTS.
+struct NamedPlace {
+  std::string name, text;
+  Position at;
+};
+
+/// A program organization unit; a class is a function block without a body.
 struct PouDeclaration {
   PouKind kind = PouKind::program;
   std::string name, text;
@@ -160,7 +166,9 @@ struct PouDeclaration {
   std::vector<VariableBlock> blocks;
   Statements body;
   Position end;
-  Access access = Access::public_;      ///< of a method
+  Access access = Access::public_;  ///< of a method
+  bool is_class = false, is_final = false, is_abstract = false, overrides = false;
+  NamedPlace extends;                   ///< of a function block; without a name: none
   std::vector<PouDeclaration> methods;  ///< of a function block
 };
 

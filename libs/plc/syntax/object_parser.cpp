@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Methods of function blocks (IEC 61131-3:2013, 6.6.5 to 6.6.7).
+// Classes, and methods of function blocks (IEC 61131-3:2013, 6.6.5 to 6.6.7).
 #include <utility>
 
 #include "plc/syntax/parser.hpp"
@@ -20,6 +20,41 @@ bool DeclarationParser::accept_access(Access& access) {
   return true;
 }
 
+bool DeclarationParser::accept_modifier(PouDeclaration& unit) {
+  if (accept_word("FINAL"))
+    unit.is_final = true;
+  else if (accept_word("ABSTRACT"))
+    unit.is_abstract = true;
+  else if (unit.kind == PouKind::method && accept_word("OVERRIDE"))
+    unit.overrides = true;
+  else
+    return false;
+  return true;
+}
+
+void DeclarationParser::block_modifiers(PouDeclaration& block) {
+  while (is_name(ahead()) && accept_modifier(block)) continue;
+}
+
+NamedPlace DeclarationParser::named_place(std::string_view what) {
+  const auto name = expect_name(what);
+  return {name.upper, name.text, name.at};
+}
+
+void DeclarationParser::extends(PouDeclaration& block) {
+  if (!is_word("EXTENDS") || !is_name(ahead())) return;
+  take();
+  block.extends = named_place("the function block or class that is extended");
+}
+
+void DeclarationParser::check_class(const PouDeclaration& block) {
+  if (!block.body.empty()) diagnostics_.error(block.body[0]->at, "a class has no body: write a METHOD");
+  for (const auto& one : block.blocks)
+    if (one.section != VariableSection::local && one.section != VariableSection::external)
+      diagnostics_.error(one.at,
+                         "a class has VAR and VAR_EXTERNAL; inputs and outputs are those of its methods");
+}
+
 /// Inputs whose edges the body of the block detects are the inputs themselves in a method.
 void DeclarationParser::methods(PouDeclaration& block) {
   auto edges = std::exchange(edges_, {});
@@ -31,7 +66,7 @@ PouDeclaration DeclarationParser::method() {
   PouDeclaration method;
   take();
   method.kind = PouKind::method;
-  while (is_name(ahead()) && accept_access(method.access)) continue;
+  while (is_name(ahead()) && (accept_access(method.access) || accept_modifier(method))) continue;
   const auto name = expect_name("the name of a method");
   method.name = name.upper;
   method.text = name.text;
@@ -42,6 +77,8 @@ PouDeclaration DeclarationParser::method() {
   method.body = edge_calls(method);
   auto body = statements({"END_METHOD"});
   for (auto& statement : body) method.body.push_back(std::move(statement));
+  if (method.is_abstract && !method.body.empty())
+    diagnostics_.error(method.body[0]->at, "an ABSTRACT method has no statements");
   method.end = now().at;
   expect_word("END_METHOD", "at the end of the method");
   accept_symbol(";");

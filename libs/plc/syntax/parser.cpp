@@ -24,6 +24,7 @@ void DeclarationParser::declaration() {
   if (is_word("FUNCTION")) return pou(PouKind::function, "END_FUNCTION", "a function");
   if (is_word("FUNCTION_BLOCK") || is_word("FUNCTIONBLOCK"))  // CoDeSys writes both
     return pou(PouKind::function_block, "END_FUNCTION_BLOCK", "a function block");
+  if (at_class()) return pou(PouKind::function_block, "END_CLASS", "a class");
   if (is_word("TEST")) return pou(PouKind::test, "END_TEST", "a test");
   if (at_configuration()) return configuration();
   fail("PROGRAM, FUNCTION, FUNCTION_BLOCK, TEST, TYPE, VAR_GLOBAL or CONFIGURATION");
@@ -32,15 +33,15 @@ void DeclarationParser::declaration() {
 // To behind the end of a declaration, or to the next one.
 void DeclarationParser::recover() {
   for (; now().kind != TokenKind::end; take()) {
-    for (const auto* end :
-         {"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST", "END_TYPE", "END_CONFIGURATION"})
+    for (const auto* end : {"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_TEST",
+                            "END_TYPE", "END_CONFIGURATION"})
       if (is_word(end)) {
         take();
         return;
       }
     for (const auto* start : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL"})
       if (is_word(start)) return;
-    if (at_configuration()) return;
+    if (at_configuration() || at_class()) return;
   }
 }
 
@@ -230,7 +231,7 @@ void DeclarationParser::refuse_edge(const VariableDeclaration& variable) {
 
 bool DeclarationParser::at_pou_end() const {
   return is_word("END_PROGRAM") || is_word("END_FUNCTION") || is_word("END_FUNCTION_BLOCK") ||
-         is_word("END_METHOD") || is_word("END_TEST") || is_word("VAR");
+         is_word("END_METHOD") || is_word("END_CLASS") || is_word("END_TEST") || is_word("VAR");
 }
 
 /// The edge detections of the inputs of one list, and their calls.
@@ -304,7 +305,10 @@ void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view
   PouDeclaration pou;
   has_refused_pointer_ = false;
   pou.kind = kind;
+  pou.is_class = is_word("CLASS");
   take();
+  const bool has_methods = kind == PouKind::function_block;
+  if (has_methods) block_modifiers(pou);
   if (kind == PouKind::test && now().kind == TokenKind::string) {
     const auto name = take();
     pou.name = "TEST " + name.text;
@@ -321,18 +325,19 @@ void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view
     take();
     pou.result = type_spec();
   }
+  if (has_methods) extends(pou);
   accept_symbol(";");
   variable_blocks(pou);
-  const bool has_methods = kind == PouKind::function_block;
   if (has_methods) methods(pou);
   pou.body = edge_calls(pou);
   for (;;) {
-    auto body = statements({"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"});
+    auto body = statements({"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_TEST"});
     std::move(body.begin(), body.end(), std::back_inserter(pou.body));
     if (!has_methods || !at_method()) break;
     methods(pou);
   }
   edges_.clear();
+  if (pou.is_class) check_class(pou);
   pou.end = now().at;
   expect_word(end, "at the end of " + std::string(what));
   accept_symbol(";");

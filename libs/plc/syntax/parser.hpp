@@ -119,6 +119,7 @@ class StatementParser : public ExpressionParser {
   Statements statements(std::initializer_list<std::string_view> ends);
   /// METHOD is a name elsewhere.
   bool at_method() const { return is_word("METHOD") && ahead().kind == TokenKind::identifier; }
+  bool at_class() const { return is_word("CLASS") && ahead().kind == TokenKind::identifier; }
 
  private:
   std::unique_ptr<Statement> statement();
@@ -155,6 +156,11 @@ class DeclarationParser : public StatementParser {
   bool at_pou_end() const;
   void variable_blocks(PouDeclaration& pou);
   bool accept_access(Access& access);
+  bool accept_modifier(PouDeclaration& unit);
+  void block_modifiers(PouDeclaration& block);
+  void extends(PouDeclaration& block);
+  NamedPlace named_place(std::string_view what);
+  void check_class(const PouDeclaration& block);
   void methods(PouDeclaration& block);
   PouDeclaration method();
   void pou(PouKind kind, std::string_view end, std::string_view what);

@@ -31,9 +31,9 @@ Statements StatementParser::statements(std::initializer_list<std::string_view> e
 // missing.
 bool StatementParser::at_declaration() const {
   for (const auto* word : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL",
-                           "END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"})
+                           "END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_TEST"})
     if (is_word(word)) return true;
-  return at_configuration() || at_method();
+  return at_configuration() || at_method() || at_class();
 }
 
 // To behind the next ';', or to the end of the enclosing statement.

@@ -17,7 +17,7 @@ std::string first_error_of(const std::string& text) {
   return "";
 }
 
-constexpr const char* counter =
+constexpr const char* counter_block =
     "FUNCTION_BLOCK Counter\n"
     "VAR_OUTPUT n : INT; END_VAR VAR step : INT := 2; END_VAR\n"
     "METHOD PUBLIC raise : INT\n"
@@ -35,7 +35,7 @@ TEST(Methods, UseTheVariablesOfTheirInstance) {
                      "a := c.raise(calls := calls, before => w); b := c.raise(5, calls);\n"
                      "e := list[i].raise(calls := calls); d(); i := d.n - 99;\n"
                      "list[i].raise(calls := calls, by := 0);",
-                     counter);
+                     counter_block);
   EXPECT_EQ(verify(*program.compilation.code), "");
   EXPECT_EQ(program.scan(), "");
   EXPECT_EQ(program.get("a"), "7");
@@ -93,7 +93,7 @@ TEST(Methods, UseVarInOutConstantsAndRegistersOfTheirBlock) {
 
 TEST(Methods, AreExecutedWithEnOnly) {
   Translated program("VAR c : Counter; on, ok : BOOL; r, calls : INT; END_VAR",
-                     "r := c.raise(EN := on, calls := calls, ENO => ok);", counter);
+                     "r := c.raise(EN := on, calls := calls, ENO => ok);", counter_block);
   EXPECT_EQ(program.scan(), "");
   EXPECT_EQ(program.get("c.n") + " " + program.get("ok"), "0 FALSE");
   program.set("on", "TRUE");
@@ -171,10 +171,11 @@ TEST(Methods, LeaveTheirWordsAsNames) {
 }
 
 TEST(Methods, HaveTheirVariablesInTheCrossReference) {
-  const auto compiled = compile(
-      {{"t.st", std::string(counter) + "PROGRAM main VAR c : Counter; i : INT; END_VAR c.raise(calls := i); "
-                                       "END_PROGRAM\n"}},
-      interface_registers());
+  const auto compiled =
+      compile({{"t.st", std::string(counter_block) +
+                            "PROGRAM main VAR c : Counter; i : INT; END_VAR c.raise(calls := i); "
+                            "END_PROGRAM\n"}},
+              interface_registers());
   ASSERT_TRUE(compiled.good()) << testing::PrintToString(compiled.lines());
   std::map<std::string, std::size_t> uses;
   for (const auto& reference : compiled.references) uses[reference.name] = reference.uses.size();
