@@ -121,6 +121,7 @@ std::uint64_t Compilation::layout() const {
         add(std::to_string(symbol.address - image_cells + layout_origin)),
         add(std::to_string(symbol.type->cells));
   }
+  for (const auto& name : implementers) add(name);
   add(code ? std::to_string(code->initial.size() - image_cells + layout_origin) : "");
   return hash;
 }
@@ -182,6 +183,7 @@ Compilation compile(const std::vector<Source>& sources, const RegisterNames& reg
     if (entries_for_functions)
       unit.code.entries.push_back({pou->declaration->name, pou->routine, pou->base, false});
   }
+  for (const auto* block : unit.implementers()) result.implementers.push_back(block->declaration->text);
   unit.code.files = result.files;
   result.code = std::make_shared<ByteCode>(std::move(unit.code));
   return result;

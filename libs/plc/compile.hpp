@@ -57,6 +57,7 @@ struct Compilation {
   std::vector<std::string> constants;  ///< paths of constants, which have no place in memory
   std::vector<FunctionInterface> functions;
   std::vector<TaskStatements> tasks;
+  std::vector<std::string> implementers;  ///< blocks that values of interfaces name by their number
   std::vector<CrossReference> references;
   std::shared_ptr<const void> types;  ///< owns what symbols point to
 

@@ -28,6 +28,9 @@ class Lowering {
   /// The value as one of the type, or an error at `at`. `what` begins the message: "the value".
   Value converted(Value value, const Type& to, Position at);
   Emitter& emitter() { return emit_; }
+  /// Of a method of an interface: calls `method` when its `self` is of the block with this number.
+  void dispatch(const Pou& method, std::uint64_t number);
+  void end_dispatch();
   /// Instructions that give variables their initial values at each call.
   void initialize(const Variable& variable);
 
@@ -57,6 +60,7 @@ class Lowering {
   Value as_number(const Value& value, Position at);
   Value as_bits(const Value& value, Position at);
   void mix(const std::string& op, Value& left, Value& right, Position at);
+  Value converted_to_interface(const Value& value, const Type& to, Position at);
   std::optional<Value> converted_freely(const Value& value, const Type& to, Position at);
   Value failed(Position at, const std::string& text);
   Value error() const { return {elementary(Kind::error), false, 0, false, 0, "", {}, nullptr}; }
@@ -108,11 +112,15 @@ class Lowering {
     Pou* instance = nullptr;
     MethodDeclaration method;
     const Expression* of = nullptr;  ///< the variable that is the instance; none: the running one
+    Pou* prototype = nullptr;        ///< of the interface that `of` is a value of
   };
   MethodDeclaration own_method(const Expression& callee) const;
   std::optional<MethodCall> called_method(const Expression& callee) const;
   bool is_accessible(const MethodCall& called) const;
   Value call_method(const MethodCall& called, const Expression& e);
+  Value call_interface(const MethodCall& called, const Expression& e);
+  void require_instance(std::int32_t value);
+  void copy_cells(std::int32_t to, std::int32_t from, std::size_t count);
   Value call_with_frame(const Pou& method, std::int32_t self, const Expression& e);
   void call_block(const Value& instance, const Expression& e);
   void call_program(Pou& program, const Expression& e);
@@ -145,6 +153,7 @@ class Lowering {
   // statements
   void statement(const Statement& s);
   void assign(const Statement& s);
+  void attempt(const Value& target, const Value& value, Position at);
   void if_statement(const Statement& s);
   void case_statement(const Statement& s);
   void case_label(const CaseLabel& label, const Value& selector, std::vector<std::size_t>& jumps,

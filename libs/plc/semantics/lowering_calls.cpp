@@ -274,7 +274,7 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
     const auto at = argument->value->at;
     auto value = converted(expression(*argument->value, variable.type), *variable.type, at);
     if (value.is_error()) continue;
-    if (is_elementary(variable.type->kind)) {
+    if (is_one_cell(variable.type->kind)) {
       const auto source = cell(value, *variable.type);
       check_range(*variable.type, value, source);
       const auto keep = emit_.temporary();
@@ -304,11 +304,11 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
                        0,
                        false,
                        ""};
-      if (is_elementary(initial.type->kind))
+      if (is_one_cell(initial.type->kind))
         emit_.add(Op::save, cell(initial), target);
       else
         copy(parameter, initial);
-    } else if (is_elementary(step.parameter->type->kind)) {
+    } else if (is_one_cell(step.parameter->type->kind)) {
       emit_.add(Op::save, step.cell, target);
     } else {
       copy(parameter, step.value);
@@ -335,7 +335,7 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
   Value stored;
   stored.type = result.type;
   stored.place = {Place::Base::absolute, base + function.result->place.offset, 0, -1, 0, 0, false, ""};
-  if (is_elementary(result.type->kind))
+  if (is_one_cell(result.type->kind))
     emit_.add(Op::load, result.place.offset, stored.place.offset);
   else
     copy(result, stored);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <utility>
 
 #include "plc/machine/arithmetic.hpp"
 #include "plc/machine/strings.hpp"
@@ -390,17 +391,22 @@ Value Lowering::comparison(const std::string& op, Value left, Value right, Posit
   if (left.type->kind == Kind::string && right.type->kind == Kind::string &&
       left.type->wide == right.type->wide)
     return string_comparison(op, left, right);
-  const bool elementary_values = (is_elementary(left.type->kind) || left.is_literal()) &&
-                                 (is_elementary(right.type->kind) || right.is_literal());
+  if (left.type->kind == Kind::null_ && is_reference(right.type->kind)) std::swap(left, right);
+  if (right.type->kind == Kind::null_ && is_reference(left.type->kind) && left.type->kind != Kind::null_)
+    right = converted(right, *left.type, at);
+  const bool elementary_values = (is_one_cell(left.type->kind) || left.is_literal()) &&
+                                 (is_one_cell(right.type->kind) || right.is_literal());
   if (!elementary_values)
     return failed(
         at, "'" + op + "' is for elementary values, not for " +
-                (is_elementary(left.type->kind) || left.is_literal() ? right.type->name : left.type->name));
+                (is_one_cell(left.type->kind) || left.is_literal() ? right.type->name : left.type->name));
   if (!settle(left, right, op, at)) return error();
   if (left.is_constant && right.is_constant) return folded_comparison(op, left, right);
   const auto* type = common_type(*left.type, *right.type);
   if (type->kind == Kind::enumeration && op != "=" && op != "<>")
     return failed(at, "enumerated values are compared by = and <> only");
+  if (is_reference(type->kind) && op != "=" && op != "<>")
+    return failed(at, "references are compared by = and <> only");
   const bool swap = op == ">" || op == ">=";
   const auto& a = swap ? right : left;
   const auto& b = swap ? left : right;

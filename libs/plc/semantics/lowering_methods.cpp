@@ -75,8 +75,13 @@ std::optional<Lowering::MethodCall> Lowering::called_method(const Expression& ca
     result.method = own_method(callee);
   } else if (callee.kind == Expression::Kind::member) {
     const auto* type = instance_type(*callee.parts[0]);
+    if (type != nullptr && type->kind == Kind::interface_) {
+      result.of = callee.parts[0].get();
+      result.prototype = unit_.prototype(*type->interface, callee.name);
+      if (result.prototype != nullptr) result.method.declaration = result.prototype->declaration;
+    }
     if (type == nullptr || type->kind != Kind::block || type->block->pou->names.contains(callee.name))
-      return std::nullopt;
+      return result.prototype == nullptr ? std::nullopt : std::optional(result);
     result.instance = type->block->pou;
     result.of = callee.parts[0].get();
     result.method = Unit::find_method(*result.instance, callee.name);
@@ -92,6 +97,7 @@ bool Lowering::is_accessible(const MethodCall& called) const {
 }
 
 Value Lowering::call_method(const MethodCall& called, const Expression& e) {
+  if (called.prototype != nullptr) return call_interface(called, e);
   const auto at = e.parts[0]->at;
   const auto& declaration = *called.method.declaration;
   if (declaration.is_class) return failed(at, "'" + declaration.text + "' is a class and has no body");

@@ -110,6 +110,8 @@ Value Lowering::name(const Expression& e, const Type* expected) {
     return constant_integer(type, enumerator->value);
   if (const auto found = unit_.registers().find(e.name); found != unit_.registers().end())
     return noted(unit_.register_value(found->second, nullptr, e.at));
+  if (e.name == "NULL")
+    return constant_integer(elementary(Kind::null_), static_cast<std::int64_t>(null_reference));
   if (auto* instance = in_test() ? unit_.find_instance(e.name) : nullptr) return variable_value(*instance);
   if (auto* pou = unit_.find_pou(e.name)) {
     if (pou->declaration->kind == PouKind::program && in_test() && !unit_.is_configured(*pou)) {
@@ -168,6 +170,8 @@ Value Lowering::member(const Expression& e) {
         is_open ? variable.place.refusal : "output of a function block is set by the block alone";
     return value;
   }
+  if (value.type->kind == Kind::interface_)
+    return failed(e.at, "the interface '" + value.type->name + "' has no method '" + e.text + "'");
   return failed(
       e.at, value.type->name + " has no members; '." + e.text + "' needs a structure or a function block");
 }

@@ -60,7 +60,7 @@ Value Lowering::temporary(const Type* type) {
 
 /// A copy of what another part of the expression may change.
 Value Lowering::kept(Value value) {
-  if (value.is_constant || !is_elementary(value.type->kind)) return value;
+  if (value.is_constant || !is_one_cell(value.type->kind)) return value;
   if (value.place.base == Place::Base::frame && emit_.is_temporary(value.place.offset) && value.place.bit < 0)
     return value;
   auto copy = temporary(value.type);
@@ -226,7 +226,7 @@ void Lowering::store(const Value& target, const Value& value) {
   if (target.is_error() || value.is_error()) return;
   mark_written(target);
   const auto& type = *target.type;
-  if (!is_elementary(type.kind)) return copy(target, value);
+  if (!is_one_cell(type.kind)) return copy(target, value);
   const auto source = cell(value, type);
   check_range(type, value, source);
   const auto& place = target.place;
@@ -270,6 +270,7 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
   if (value.is_error() || to.kind == Kind::error) return error();
   const auto from = value.type->kind;
   if (from == Kind::none) return failed(at, "the function has no result");
+  if (to.kind == Kind::interface_) return converted_to_interface(value, to, at);
   if (from == Kind::integer_literal) {
     const bool number = is_integer(to.kind) || (is_bits(to.kind)) || to.kind == Kind::integer_literal;
     if (number) {

@@ -130,7 +130,10 @@ void Lowering::assign(const Statement& s) {
     return;
   }
   note(*s.target, target, writing());
-  store(target, converted(value, *target.type, s.value->at));
+  if (s.attempts)
+    attempt(target, value, s.value->at);
+  else
+    store(target, converted(value, *target.type, s.value->at));
 }
 
 std::int32_t Lowering::condition(const Expression& e, const char* what) {

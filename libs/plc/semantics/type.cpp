@@ -37,6 +37,7 @@ constexpr std::array type_rows = std::to_array<Row>({
     {Kind::dt, "DATE_AND_TIME", 64, true},
     {Kind::integer_literal, "a whole number", 64, true},
     {Kind::real_literal, "a number with a decimal point", 64, false},
+    {Kind::null_, "NULL", 64, false},
     {Kind::none, "nothing", 64, false},
     {Kind::error, "unknown", 64, false},
 });
@@ -127,6 +128,8 @@ bool is_bits(Kind kind) { return kind <= Kind::lword; }
 bool is_duration(Kind kind) { return kind == Kind::time || kind == Kind::ltime; }
 bool is_date(Kind kind) { return kind == Kind::date || kind == Kind::tod || kind == Kind::dt; }
 bool is_elementary(Kind kind) { return kind < Kind::string || kind == Kind::enumeration; }
+bool is_reference(Kind kind) { return kind == Kind::interface_ || kind == Kind::null_; }
+bool is_one_cell(Kind kind) { return is_elementary(kind) || is_reference(kind); }
 
 int bits(Kind kind) {
   const auto* r = row(kind);
@@ -181,6 +184,7 @@ bool same_type(const Type& a, const Type& b) {
   if (a.kind == Kind::enumeration)
     return a.name == b.name && std::equal(a.enumerators.begin(), a.enumerators.end(), b.enumerators.begin(),
                                           b.enumerators.end(), named);
+  if (a.kind == Kind::interface_) return a.interface == b.interface;
   return a.kind == Kind::block && a.block == b.block;
 }
 

@@ -36,6 +36,8 @@ enum class Kind : std::uint8_t {
   array,
   structure,
   block,
+  interface_,       ///< one cell: the place of an instance and which block it is of; see null_reference
+  null_,            ///< NULL
   integer_literal,  ///< takes the type of what it meets
   real_literal,
   none,   ///< result of a function without one
@@ -59,7 +61,11 @@ struct Dimension {
   std::int64_t low = 0, high = 0;
 };
 
-struct Block;  // a function block with its interface
+struct Block;  // a function block with its parameters
+struct Interface;
+
+/// NULL: an address that no memory has, so that its use is a fault.
+inline constexpr std::uint64_t null_reference = std::uint64_t{1} << 63;
 
 struct Type {
   Kind kind = Kind::error;
@@ -74,6 +80,7 @@ struct Type {
   std::vector<Field> fields;  ///< of a structure
   std::vector<Enumerator> enumerators;
   const Block* block = nullptr;
+  Interface* interface = nullptr;
   std::vector<std::uint64_t> initial;  ///< the cells of a variable without initial value
 
   const Field* field(std::string_view upper) const;
@@ -85,12 +92,14 @@ const Type* elementary(std::string_view upper);
 const Type* elementary(Kind kind);
 
 bool is_signed(Kind kind);
-bool is_integer(Kind kind);     ///< SINT .. ULINT
-bool is_real(Kind kind);        ///< REAL, LREAL
-bool is_bits(Kind kind);        ///< BOOL .. LWORD
-bool is_duration(Kind kind);    ///< TIME, LTIME
-bool is_date(Kind kind);        ///< DATE, TOD, DT
-bool is_elementary(Kind kind);  ///< one cell
+bool is_integer(Kind kind);   ///< SINT .. ULINT
+bool is_real(Kind kind);      ///< REAL, LREAL
+bool is_bits(Kind kind);      ///< BOOL .. LWORD
+bool is_duration(Kind kind);  ///< TIME, LTIME
+bool is_date(Kind kind);      ///< DATE, TOD, DT
+bool is_elementary(Kind kind);
+bool is_reference(Kind kind);  ///< of an interface, NULL
+bool is_one_cell(Kind kind);   ///< elementary or a reference
 /// Bits of an integer, bit string or enumeration.
 int bits(Kind kind);
 /// `n` of Op::narrow: bits and sign.

@@ -19,7 +19,10 @@ const char* kind_text(const Pou& pou) { return pou.is_method() ? "a method" : "a
 }  // namespace
 
 std::string title_of(const Pou& pou) {
-  return (pou.is_method() ? pou.instance->declaration->text + "." : "") + pou.declaration->text;
+  const auto of = pou.interface != nullptr  ? pou.interface->declaration->text + "."
+                  : pou.instance != nullptr ? pou.instance->declaration->text + "."
+                                            : std::string();
+  return of + pou.declaration->text;
 }
 
 Unit::Unit(const SourceTree& tree, Diagnostics& diagnostics, const RegisterNames& registers,
@@ -31,11 +34,13 @@ Unit::Unit(const SourceTree& tree, Diagnostics& diagnostics, const RegisterNames
 void Unit::run() {
   register_types();
   declare_pous();
+  declare_interfaces();
   // Types are built when they are needed; they may use constants, so those come first.
   for (const bool constants : {true, false})
     for (const auto& block : tree_.globals)
       if (block.constant == constants) declare_globals(block);
   build_types();
+  declare_prototypes();
   declare_instances();
   for (const auto& declaration : tree_.pous)
     if (const auto found = pous.find(declaration.name);
@@ -91,7 +96,11 @@ bool Unit::complete(Pou& pou, Position at) {
   }
   if (pou.state == Pou::State::declared) {
     pou.state = Pou::State::in_progress;
-    translate(pou);
+    pou.called_at = at;
+    if (pou.interface != nullptr)
+      translate_dispatcher(pou);
+    else
+      translate(pou);
     pou.state = Pou::State::done;
   }
   return true;
@@ -114,6 +123,7 @@ void Unit::declare_globals(const VariableBlock& block) {
     variable.type = type_of(*declaration.type, nullptr);
     global_names_[variable.name] = &variable;
     if (variable.type->kind == Kind::error) continue;
+    if (block.retain) refuse_retention(*variable.type, variable.text, variable.at);
     variable.initial = initial_cells(declaration.initial, *variable.type, nullptr);
     if (block.constant && is_elementary(variable.type->kind) && declaration.initial != nullptr)
       constant(*declaration.initial, *variable.type, nullptr, variable.constant);
@@ -177,6 +187,7 @@ void Unit::declare_variable(Pou& pou, const Pou& declared_in, const VariableBloc
     return;
   }
   const auto& type = *variable.type;
+  if (block.retain) refuse_retention(type, variable.text, variable.at);
   if (block.section == VariableSection::external) {
     auto* global = find_global(declaration.name);
     if (global == nullptr) {
@@ -320,6 +331,7 @@ void Unit::translate(Pou& pou) {
   find_parent(pou);
   declare_variables(pou);
   check_methods(pou);
+  pou.is_declared = true;
   pou.frame = static_cast<std::uint32_t>(pou.initial.size());
   Lowering lowering(*this, &pou, pou.frame);
   const bool is_function = keeps_nothing(pou);

@@ -57,12 +57,26 @@ struct Pou {
   Pou* instance = nullptr;           ///< the function block whose variables it uses; SUPER() is a method too
   const Pou* declared_in = nullptr;  ///< the one that declares it
   std::uint32_t self = 0;            ///< cell of the frame with the address of the instance
+  Interface* interface = nullptr;    ///< of a method of an interface, which calls that of the instance
+  Position called_at;                ///< where it was needed first
+  bool is_declared = false;          ///< its variables are
   const Pou* parent = nullptr;       ///< of a function block: the one that it extends
   /// Of a function block: its methods, by the block that declares them and their name.
   std::map<std::string, std::unique_ptr<Pou>, std::less<>> methods;
 
-  bool is_method() const { return instance != nullptr; }
+  bool is_method() const { return instance != nullptr || interface != nullptr; }
 };
+
+/// INTERFACE, while it is translated and afterwards.
+struct Interface {
+  const InterfaceDeclaration* declaration = nullptr;
+  Type type;
+  std::vector<Interface*> parents;
+  std::map<std::string, std::unique_ptr<Pou>, std::less<>> methods;  ///< of this interface alone
+};
+
+/// Whether names, types and order of what a call gives and takes, and the result, are the same.
+bool same_parameters(const Pou& a, const Pou& b);
 
 /// As messages and the cross reference name it: Block.method.
 std::string title_of(const Pou& pou);
@@ -108,6 +122,17 @@ class Unit {
   static MethodDeclaration find_method(const Pou& block, const std::string& upper);
   /// The method for instances of `instance`, translated; nullptr as for translated().
   Pou* method(Pou& instance, const MethodDeclaration& found, Position at);
+  Interface* find_interface(const std::string& upper);
+  /// The method of an interface, also of one that it extends; nullptr when there is none.
+  Pou* prototype(Interface& interface, const std::string& upper);
+  /// The method of an interface, translated: it calls that of the instance that its `self` names.
+  const Pou* dispatcher(Pou& prototype, Position at);
+  /// Whether the block, or one that it extends, has it behind IMPLEMENTS, or an interface that extends it.
+  bool implements(const PouDeclaration& block, const Interface& interface);
+  static bool extends(const Interface& interface, const Interface& other);
+  /// The blocks of which values of interfaces name instances, by their number from 1.
+  const std::vector<Pou*>& implementers() const { return implementers_; }
+  std::uint64_t implementer_number(const Pou& block) const;
   Variable* find_global(const std::string& upper);
   /// An enumerated value of any type; nullptr when none or several have the name.
   const Enumerator* find_enumerator(const std::string& upper, const Type** type);
@@ -161,11 +186,18 @@ class Unit {
   void find_parent(Pou& pou);
   void translate(Pou& pou);
   bool complete(Pou& pou, Position at);
+  /// For instances of the block that declares it; nullptr when it is not translated.
+  static const Pou* declared_method(const MethodDeclaration& found);
   void check_methods(const Pou& block);
   void check_override(const Pou& block, const PouDeclaration& declaration);
   void check_abstract(const Pou& block);
   void compare_overrides(const Pou& block);
   void translate_methods();
+  void declare_interfaces();
+  void declare_prototypes();
+  void translate_dispatcher(Pou& pou);
+  void check_interfaces(const Pou& block);
+  void refuse_retention(const Type& type, const std::string& name, Position at);
   bool locate(Variable& variable, const VariableDeclaration& declaration);
   void retain(const RegisterAddress& first, std::uint32_t count, Position at);
   void warn_unused(const Pou& pou);
@@ -195,6 +227,8 @@ class Unit {
   std::map<std::string, Variable*, std::less<>> instance_names_;
   std::deque<PouDeclaration> task_declarations_;
   std::deque<Pou> tasks_;
+  std::map<std::string, Interface, std::less<>> interfaces_;
+  std::vector<Pou*> implementers_;
 };
 
 }  // namespace trunnion::st

@@ -7,7 +7,6 @@
 #include "plc/semantics/unit.hpp"
 
 namespace trunnion::st {
-
 namespace {
 
 /// In `methods` of a block; the body of an extended one has the name of that block alone.
@@ -21,7 +20,8 @@ bool same_result(const Pou& a, const Pou& b) {
   return same_type(*a.result->type, *b.result->type);
 }
 
-/// Names, types and order of what a call gives and takes.
+}  // namespace
+
 bool same_parameters(const Pou& a, const Pou& b) {
   const auto parameters = [](const Pou& pou) {
     std::vector<const Variable*> result;
@@ -36,8 +36,6 @@ bool same_parameters(const Pou& a, const Pou& b) {
                                                   same_type(*x->type, *y->type);
                                          });
 }
-
-}  // namespace
 
 MethodDeclaration Unit::find_method(const Pou& block, const std::string& upper) {
   for (const Pou* one = &block; one != nullptr; one = one->parent)
@@ -74,6 +72,12 @@ Pou* Unit::method(Pou& instance, const MethodDeclaration& found, Position at) {
     method->type.name = title_of(*method);
   }
   return complete(*method, at) ? method.get() : nullptr;
+}
+
+const Pou* Unit::declared_method(const MethodDeclaration& found) {
+  const auto& methods = found.declared_in->methods;
+  const auto own = methods.find(key_of(found));
+  return own == methods.end() ? nullptr : own->second.get();
 }
 
 /// Those of the declaration of a function block, once all its variables are known.
@@ -124,10 +128,8 @@ void Unit::compare_overrides(const Pou& block) {
   for (const auto& declaration : block.declaration->methods) {
     const auto inherited = find_method(*block.parent, declaration.name);
     if (inherited.declaration == nullptr || inherited.declaration->access == Access::private_) continue;
-    const auto own = block.methods.find(key_of({&declaration, &block}));
-    const auto& others = inherited.declared_in->methods;
-    const auto other = others.find(key_of(inherited));
-    if (own != block.methods.end() && other != others.end() && !same_parameters(*own->second, *other->second))
+    const auto *own = declared_method({&declaration, &block}), *other = declared_method(inherited);
+    if (own != nullptr && other != nullptr && !same_parameters(*own, *other))
       diagnostics_.error(declaration.at, "the method '" + declaration.text +
                                              "' has other parameters or another result than that of '" +
                                              inherited.declared_in->declaration->text + "'");
@@ -146,6 +148,7 @@ void Unit::translate_methods() {
       method(*block, {&declaration, block}, declaration.at);
   for (const auto* block : blocks) {
     compare_overrides(*block);
+    check_interfaces(*block);
     for (const auto& variable : block->variables)  // what a derived block uses is used
       if (variable.used && variable.declared_in != block && variable.declared_in != nullptr)
         if (const auto found = variable.declared_in->names.find(variable.name);

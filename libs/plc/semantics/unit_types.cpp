@@ -107,6 +107,8 @@ const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* cont
       }
       return translated(spec.name, spec.at) == nullptr ? elementary(Kind::error) : &pou->type;
     }
+  if (const auto* interface = find_interface(spec.name); type == nullptr && interface != nullptr)
+    return &interface->type;
   if (type == nullptr) {
     diagnostics_.error(spec.at, "there is no type '" + spec.text + "'");
     return elementary(Kind::error);

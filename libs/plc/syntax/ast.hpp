@@ -88,6 +88,7 @@ struct Statement {
   };
   Kind kind = Kind::assign;
   Position at;
+  bool attempts = false;        ///< of assign: ?=
   ExpressionPtr target, value;  ///< of assign; `value` of a call, CASE, WHILE, REPEAT; `target` of FOR
   ExpressionPtr to, by;         ///< of FOR, with `value` as its first value
   std::vector<Branch> branches;
@@ -169,7 +170,16 @@ struct PouDeclaration {
   Access access = Access::public_;  ///< of a method
   bool is_class = false, is_final = false, is_abstract = false, overrides = false;
   NamedPlace extends;                   ///< of a function block; without a name: none
+  std::vector<NamedPlace> implements;   ///< interfaces
   std::vector<PouDeclaration> methods;  ///< of a function block
+};
+
+/// INTERFACE; its methods have no statements.
+struct InterfaceDeclaration {
+  std::string name, text;
+  Position at;
+  std::vector<NamedPlace> extends;
+  std::vector<PouDeclaration> methods;
 };
 
 struct TypeDeclaration {
@@ -211,6 +221,7 @@ struct SourceTree {
   std::vector<TypeDeclaration> types;
   std::vector<VariableBlock> globals;
   std::vector<PouDeclaration> pous;
+  std::vector<InterfaceDeclaration> interfaces;
   std::vector<ConfigurationDeclaration> configurations;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Classes, and methods of function blocks (IEC 61131-3:2013, 6.6.5 to 6.6.7).
+// Classes and interfaces, and methods of function blocks (IEC 61131-3:2013, 6.6.5 to 6.6.7).
 #include <utility>
 
 #include "plc/syntax/parser.hpp"
@@ -42,9 +42,41 @@ NamedPlace DeclarationParser::named_place(std::string_view what) {
 }
 
 void DeclarationParser::extends(PouDeclaration& block) {
-  if (!is_word("EXTENDS") || !is_name(ahead())) return;
+  if (is_word("EXTENDS") && is_name(ahead())) {
+    take();
+    block.extends = named_place("the function block or class that is extended");
+  }
+  if (is_word("IMPLEMENTS") && is_name(ahead())) block.implements = interface_names();
+}
+
+/// Behind EXTENDS or IMPLEMENTS.
+std::vector<NamedPlace> DeclarationParser::interface_names() {
+  std::vector<NamedPlace> result;
+  do {
+    take();
+    result.push_back(named_place("the name of an interface"));
+  } while (is_symbol(","));
+  return result;
+}
+
+void DeclarationParser::interface() {
+  InterfaceDeclaration interface;
   take();
-  block.extends = named_place("the function block or class that is extended");
+  const auto name = expect_name("the name of the interface");
+  interface.name = name.upper;
+  interface.text = name.text;
+  interface.at = name.at;
+  if (is_word("EXTENDS") && is_name(ahead())) interface.extends = interface_names();
+  accept_symbol(";");
+  while (at_method()) {
+    interface.methods.push_back(method());
+    const auto& prototype = interface.methods.back();
+    if (!prototype.body.empty())
+      diagnostics_.error(prototype.body[0]->at, "a method of an interface has no statements");
+  }
+  expect_word("END_INTERFACE", "or METHOD in the interface");
+  accept_symbol(";");
+  tree_.interfaces.push_back(std::move(interface));
 }
 
 void DeclarationParser::check_class(const PouDeclaration& block) {

@@ -24,6 +24,7 @@ void DeclarationParser::declaration() {
   if (is_word("FUNCTION")) return pou(PouKind::function, "END_FUNCTION", "a function");
   if (is_word("FUNCTION_BLOCK") || is_word("FUNCTIONBLOCK"))  // CoDeSys writes both
     return pou(PouKind::function_block, "END_FUNCTION_BLOCK", "a function block");
+  if (at_interface()) return interface();
   if (at_class()) return pou(PouKind::function_block, "END_CLASS", "a class");
   if (is_word("TEST")) return pou(PouKind::test, "END_TEST", "a test");
   if (at_configuration()) return configuration();
@@ -33,15 +34,15 @@ void DeclarationParser::declaration() {
 // To behind the end of a declaration, or to the next one.
 void DeclarationParser::recover() {
   for (; now().kind != TokenKind::end; take()) {
-    for (const auto* end : {"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_TEST",
-                            "END_TYPE", "END_CONFIGURATION"})
+    for (const auto* end : {"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_INTERFACE",
+                            "END_TEST", "END_TYPE", "END_CONFIGURATION"})
       if (is_word(end)) {
         take();
         return;
       }
     for (const auto* start : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL"})
       if (is_word(start)) return;
-    if (at_configuration() || at_class()) return;
+    if (at_configuration() || at_class() || at_interface()) return;
   }
 }
 
@@ -231,7 +232,8 @@ void DeclarationParser::refuse_edge(const VariableDeclaration& variable) {
 
 bool DeclarationParser::at_pou_end() const {
   return is_word("END_PROGRAM") || is_word("END_FUNCTION") || is_word("END_FUNCTION_BLOCK") ||
-         is_word("END_METHOD") || is_word("END_CLASS") || is_word("END_TEST") || is_word("VAR");
+         is_word("END_METHOD") || is_word("END_INTERFACE") || is_word("END_CLASS") || is_word("END_TEST") ||
+         is_word("VAR");
 }
 
 /// The edge detections of the inputs of one list, and their calls.

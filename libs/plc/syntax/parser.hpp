@@ -119,6 +119,7 @@ class StatementParser : public ExpressionParser {
   Statements statements(std::initializer_list<std::string_view> ends);
   /// METHOD is a name elsewhere.
   bool at_method() const { return is_word("METHOD") && ahead().kind == TokenKind::identifier; }
+  bool at_interface() const { return is_word("INTERFACE") && ahead().kind == TokenKind::identifier; }
   bool at_class() const { return is_word("CLASS") && ahead().kind == TokenKind::identifier; }
 
  private:
@@ -159,6 +160,8 @@ class DeclarationParser : public StatementParser {
   bool accept_modifier(PouDeclaration& unit);
   void block_modifiers(PouDeclaration& block);
   void extends(PouDeclaration& block);
+  std::vector<NamedPlace> interface_names();
+  void interface();
   NamedPlace named_place(std::string_view what);
   void check_class(const PouDeclaration& block);
   void methods(PouDeclaration& block);

@@ -33,7 +33,7 @@ bool StatementParser::at_declaration() const {
   for (const auto* word : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL",
                            "END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_TEST"})
     if (is_word(word)) return true;
-  return at_configuration() || at_method() || at_class();
+  return at_configuration() || at_method() || at_class() || at_interface();
 }
 
 // To behind the next ';', or to the end of the enclosing statement.
@@ -90,9 +90,9 @@ std::unique_ptr<Statement> StatementParser::statement() {
     if (now().kind != TokenKind::identifier && now().kind != TokenKind::direct) fail("a statement");
     if (is_keyword()) fail("a statement");
     auto target = designator();
-    if (is_symbol(":=")) {
+    if (is_symbol(":=") || is_symbol("?=")) {
       s.at = target->at;
-      take();
+      s.attempts = take().text == "?=";
       s.kind = assign;
       s.target = std::move(target);
       s.value = expression();
