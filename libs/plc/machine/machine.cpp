@@ -401,6 +401,15 @@ Fault Machine::execute(std::size_t entry, std::int64_t now, std::int64_t budget,
         stop(FaultKind::index, value, range.low, range.high);
         break;
       }
+      case Op::check_limits: {
+        const auto value = as_signed(m[in.b]), low = as_signed(m[in.c]), high = as_signed(m[in.c + 1]);
+        if (value >= low && value <= high) {
+          m[in.a] = m[in.b] - m[in.c];
+          continue;
+        }
+        stop(FaultKind::index, value, low, high);
+        break;
+      }
       case Op::check_range: {
         const auto& range = code_->ranges[static_cast<std::uint32_t>(in.b)];
         const auto value = as_signed(m[in.a]);

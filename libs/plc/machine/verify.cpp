@@ -122,6 +122,8 @@ class Verifier {
       case Op::load_at:
       case Op::save_at:
         return in.c >= 0;
+      case Op::check_limits:
+        return static_cast<std::uint32_t>(in.c) + 1 < r.frame;
       case Op::address:
         return in.b >= 0 && static_cast<std::uint32_t>(in.b) < r.frame;
       case Op::string_make:

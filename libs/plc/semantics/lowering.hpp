@@ -44,6 +44,11 @@ class Lowering {
   Value member(const Expression& e);
   Value part(const Expression& e);
   Value index(const Expression& e);
+  Value index_number(const Expression& e);
+  Value open_element(const Expression& e, Value value);
+  void add_limits(const Value& array, std::vector<std::int32_t>& cells);
+  std::optional<Value> array_bound(const Expression& e, const Type* expected);
+  Value open_limit(std::int32_t limit, const Type* expected, Position at);
   Value unary(const Expression& e, const Type* expected);
   Value inverted(const Value& value, Position at);
   Value binary(const Expression& e, const Type* expected);
@@ -125,7 +130,7 @@ class Lowering {
   void call_block(const Value& instance, const Expression& e);
   void call_program(Pou& program, const Expression& e);
   bool bind(const Pou& pou, const Expression& e, bool is_block, std::vector<const Argument*>& bound);
-  std::int32_t reference(const Argument& argument, const Variable& parameter);
+  std::vector<std::int32_t> reference(const Argument& argument, const Variable& parameter);
   void give_output(const Argument& argument, const Value& output);
   std::optional<Value> standard_function(const Expression& e, const Type* expected);
   std::optional<Value> ladder_function(const Expression& e);

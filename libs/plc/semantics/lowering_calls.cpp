@@ -138,6 +138,7 @@ Value Lowering::plain_call(const Expression& e, const Type* expected) {
                                        callee.text + "; and call name(...)");
       }
     }
+    if (auto value = array_bound(e, expected)) return *value;
     if (auto value = ladder_function(e)) return *value;
     if (auto value = standard_function(e, expected)) return *value;
     return failed(callee.at, "there is no function '" + callee.text + "'");
@@ -210,27 +211,29 @@ bool Lowering::bind(const Pou& pou, const Expression& e, bool is_block, std::vec
   return good;
 }
 
-/// The address of the variable that VAR_IN_OUT refers to.
-std::int32_t Lowering::reference(const Argument& argument, const Variable& parameter) {
+/// The cells of VAR_IN_OUT: the address of the variable that it refers to, of ARRAY[*] also the limits.
+std::vector<std::int32_t> Lowering::reference(const Argument& argument, const Variable& parameter) {
   const auto value = target(*argument.value);
-  if (value.is_error()) return 0;
+  if (value.is_error()) return {0};
   auto access = writing();
   access.reads = true;
   note(*argument.value, value, access);
   const auto at = argument.value->at;
-  if (!check_writable(value, at)) return 0;
+  if (!check_writable(value, at)) return {0};
   if (value.place.bit >= 0 || value.place.form != 0) {
     unit_.diagnostics().error(at, "a part of a register cannot be VAR_IN_OUT '" + parameter.text +
                                       "'; copy it to a variable and back");
-    return 0;
+    return {0};
   }
-  if (!same_type(*value.type, *parameter.type) || value.type->ranged != parameter.type->ranged) {
+  if (!fits_parameter(*value.type, *parameter.type)) {
     unit_.diagnostics().error(
         at, "VAR_IN_OUT '" + parameter.text + "' is " + parameter.type->name + ", not " + value.type->name);
-    return 0;
+    return {0};
   }
   mark_written(value);
-  return address(value.place);
+  std::vector<std::int32_t> cells{address(value.place)};
+  if (parameter.type->open) add_limits(value, cells);
+  return cells;
 }
 
 /// To the variable behind =>, inverted with NOT before the output's name.
@@ -250,6 +253,7 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
     const Variable* parameter;
     std::int32_t cell;
     Value value;
+    std::vector<std::int32_t> references{};
   };
   // All arguments first: an argument may call the same function.
   std::vector<Step> steps;
@@ -268,7 +272,7 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
     }
     if (variable.section == VariableSection::output) continue;
     if (variable.section == VariableSection::in_out) {
-      steps.push_back({&variable, reference(*argument, variable), {}});
+      steps.push_back({&variable, 0, {}, reference(*argument, variable)});
       continue;
     }
     const auto at = argument->value->at;
@@ -292,7 +296,8 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
     parameter.type = step.parameter->type;
     parameter.place = {Place::Base::absolute, target, 0, -1, 0, 0, true, ""};
     if (step.parameter->section == VariableSection::in_out) {
-      emit_.add(Op::save, step.cell, target);
+      for (std::size_t k = 0; k < step.references.size(); ++k)
+        emit_.add(Op::save, step.references[k], target + static_cast<std::int32_t>(k));
     } else if (step.cell < 0) {
       Value initial;
       initial.type = step.parameter->type;
@@ -362,8 +367,10 @@ void Lowering::call_block(const Value& instance, const Expression& e) {
     const auto* argument = bound[i++];
     if (argument == nullptr || variable.section == VariableSection::output) continue;
     if (variable.section == VariableSection::in_out) {
-      const auto source = reference(*argument, variable);
-      store_cell(place_of(variable).place, *elementary(Kind::lint), source);
+      const auto sources = reference(*argument, variable);
+      for (std::size_t k = 0; k < sources.size(); ++k)
+        store_cell(moved(place_of(variable).place, static_cast<std::int32_t>(k)), *elementary(Kind::lint),
+                   sources[k]);
       continue;
     }
     const auto at = argument->value->at;

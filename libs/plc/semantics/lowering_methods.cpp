@@ -36,8 +36,12 @@ Variable* Lowering::own_variable(const Expression& name) const {
 /// Why the method must not use the variable of its block, or nothing.
 std::string Lowering::hidden(const Variable& variable) const {
   if (variable.declared_in == nullptr) return "";
-  if (variable.section == VariableSection::temporary && pou_->declaration->kind == PouKind::method)
+  const bool in_method = pou_->declaration->kind == PouKind::method;
+  if (in_method && variable.section == VariableSection::temporary)
     return "VAR_TEMP '" + variable.text + "' has a value in the body of the function block only";
+  // The variable that the last call of the body has given may be gone.
+  if (in_method && variable.section == VariableSection::in_out)
+    return "VAR_IN_OUT '" + variable.text + "' is of calls of the body: pass the variable to the method";
   if (variable.access == Access::private_ && variable.declared_in != declaring())
     return "'" + variable.text + "' is PRIVATE in '" + variable.declared_in->declaration->text + "'";
   return "";
@@ -139,13 +143,16 @@ Value Lowering::call_with_frame(const Pou& method, std::int32_t self, const Expr
     const auto* argument = bound[i++];
     if (variable.section == VariableSection::output) continue;
     const auto parameter = value_of(variable, true);
-    if (variable.section == VariableSection::in_out)
-      emit_.add(Op::move, parameter.place.offset, reference(*argument, variable));
-    else if (argument == nullptr)
+    if (variable.section == VariableSection::in_out) {
+      const auto sources = reference(*argument, variable);
+      for (std::size_t k = 0; k < sources.size(); ++k)
+        emit_.add(Op::move, parameter.place.offset + static_cast<std::int32_t>(k), sources[k]);
+    } else if (argument == nullptr) {
       fill(parameter.place.offset, variable.initial);
-    else
+    } else {
       store(parameter,
             converted(expression(*argument->value, variable.type), *variable.type, argument->value->at));
+    }
   }
   const auto frame = emit_.temporary();
   emit_.add(Op::address, frame, start);

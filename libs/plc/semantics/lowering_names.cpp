@@ -79,7 +79,12 @@ Value Lowering::variable_value(Variable& variable) {
   auto reference = variable.place.offset;
   if (of_instance) value.place.base = Place::Base::indirect, value.place.cell = self().cell;
   if (variable.section != VariableSection::in_out) return value;
-  if (of_instance) emit_.add(Op::load_at, reference = emit_.temporary(), self().cell, variable.place.offset);
+  if (of_instance) {
+    reference = emit_.temporary(static_cast<std::uint32_t>(variable.initial.size()));
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(variable.initial.size()); ++i)
+      emit_.add(Op::load_at, reference + i, self().cell, variable.place.offset + i);
+  }
+  if (variable.type->open) value.limits = reference + 1;
   value.place = {Place::Base::indirect, 0, reference, -1, 0, 0, true, ""};
   return value;
 }
@@ -211,71 +216,6 @@ Value Lowering::part(const Expression& e) {
                                         : Kind::dword);
   value.place.bit = std::max(value.place.bit, 0) + number * width;
   value.place.width = width;
-  return value;
-}
-
-Value Lowering::index(const Expression& e) {
-  auto value = expression(*e.parts[0]);
-  if (value.is_error()) return value;
-  if (value.type->kind != Kind::array)
-    return failed(e.at, value.type->name + " is no array and has no index");
-  const auto& type = *value.type;
-  if (e.parts.size() - 1 != type.dimensions.size())
-    return failed(e.at, "the array has " + std::to_string(type.dimensions.size()) +
-                            (type.dimensions.size() == 1 ? " dimension, not " : " dimensions, not ") +
-                            std::to_string(e.parts.size() - 1));
-  std::int64_t stride = type.cells, offset = 0;
-  std::optional<std::int32_t> sum;
-  bool good = true;
-  for (std::size_t i = 0; i < type.dimensions.size(); ++i) {
-    const auto& dimension = type.dimensions[i];
-    stride /= dimension.high - dimension.low + 1;
-    const auto& at = e.parts[i + 1]->at;
-    auto number = as_number(expression(*e.parts[i + 1]), at);
-    if (number.is_error()) {
-      good = false;
-      continue;
-    }
-    if (!is_integer(number.type->kind) && number.type->kind != Kind::integer_literal) {
-      failed(at, "an index is a whole number, not " + number.type->name);
-      good = false;
-      continue;
-    }
-    if (number.is_constant) {
-      if (number.large || number.integer < dimension.low || number.integer > dimension.high) {
-        failed(at, "index " + std::to_string(number.integer) + " is outside " +
-                       std::to_string(dimension.low) + " .. " + std::to_string(dimension.high) +
-                       " of the array");
-        good = false;
-        continue;
-      }
-      offset += (number.integer - dimension.low) * stride;
-      continue;
-    }
-    const auto source = cell(number);
-    const auto scaled = emit_.temporary();
-    emit_.place(at);
-    emit_.add(Op::check_index, scaled, source, unit_.range_entry({dimension.low, dimension.high, stride}));
-    if (!sum)
-      sum = scaled;
-    else
-      emit_.add(Op::add, *sum, *sum, scaled);
-  }
-  if (!good) return error();
-  value.variable = nullptr;
-  value.type = type.element;
-  value.place = moved(value.place, static_cast<std::int32_t>(offset));
-  if (value.place.base == Place::Base::absolute && sum)
-    unit_.use_register(static_cast<std::uint32_t>(value.place.offset - offset), type.cells, false);
-  if (sum) {
-    auto place = value.place;
-    if (place.base == Place::Base::absolute)
-      unit_.use_register(static_cast<std::uint32_t>(place.offset - offset), type.cells, true);
-    const auto start = address(place);
-    const auto result = emit_.temporary();
-    emit_.add(Op::add, result, start, *sum);
-    value.place = {Place::Base::indirect, 0, result, -1, 0, 0, place.writable, place.refusal};
-  }
   return value;
 }
 

@@ -171,7 +171,7 @@ bool same_type(const Type& a, const Type& b) {
     const auto equal = [](const Dimension& x, const Dimension& y) {
       return x.low == y.low && x.high == y.high;
     };
-    return a.dimensions.size() == b.dimensions.size() &&
+    return a.open == b.open && a.dimensions.size() == b.dimensions.size() &&
            std::equal(a.dimensions.begin(), a.dimensions.end(), b.dimensions.begin(), equal) &&
            same_type(*a.element, *b.element) && a.element->ranged == b.element->ranged &&
            a.element->low == b.element->low && a.element->high == b.element->high;
@@ -186,6 +186,14 @@ bool same_type(const Type& a, const Type& b) {
                                           b.enumerators.end(), named);
   if (a.kind == Kind::interface_) return a.interface == b.interface;
   return a.kind == Kind::block && a.block == b.block;
+}
+
+bool fits_parameter(const Type& value, const Type& parameter) {
+  if (parameter.open)
+    return value.kind == Kind::array && value.dimensions.size() == parameter.dimensions.size() &&
+           fits_parameter(*value.element, *parameter.element) &&
+           value.element->low == parameter.element->low && value.element->high == parameter.element->high;
+  return same_type(value, parameter) && value.ranged == parameter.ranged;
 }
 
 bool widens(const Type& from, const Type& to) {

@@ -76,6 +76,7 @@ struct Type {
   std::uint32_t length = 0;           ///< of a string, bytes; of WSTRING characters
   bool wide = false;                  ///< WSTRING
   std::vector<Dimension> dimensions;  ///< of an array
+  bool open = false;                  ///< ARRAY[*]: the limits are those of the caller's array
   const Type* element = nullptr;
   std::vector<Field> fields;  ///< of a structure
   std::vector<Enumerator> enumerators;
@@ -109,6 +110,8 @@ bool fits(const Type& type, std::int64_t value, bool is_large_unsigned = false);
 /// "-128 .. 127"
 std::string limits_text(const Type& type);
 
+/// Whether VAR_IN_OUT of the type `parameter` takes a variable of the type `value`.
+bool fits_parameter(const Type& value, const Type& parameter);
 /// Without regard to subranges.
 bool same_type(const Type& a, const Type& b);
 /// Whether a value converts implicitly, without loss (figure 12 of the standard).

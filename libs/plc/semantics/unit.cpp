@@ -180,7 +180,9 @@ void Unit::declare_variable(Pou& pou, const Pou& declared_in, const VariableBloc
   variable.is_constant = block.constant;
   variable.access = block.access;
   if (pou.declaration->kind == PouKind::function_block) variable.declared_in = &declared_in;
+  in_out_spec_ = block.section == VariableSection::in_out ? declaration.type : nullptr;
   variable.type = type_of(*declaration.type, &pou);
+  in_out_spec_ = nullptr;
   pou.names[variable.name] = &variable;
   if (variable.type->kind == Kind::error) {
     variable.used = true;
@@ -221,7 +223,7 @@ void Unit::declare_variable(Pou& pou, const Pou& declared_in, const VariableBloc
     diagnostics_.error(declaration.at, "VAR_IN_OUT '" + declaration.text +
                                            "' is the caller's variable and has no initial value");
   variable.initial = block.section == VariableSection::in_out
-                         ? std::vector<std::uint64_t>{0}
+                         ? std::vector<std::uint64_t>(type.open ? 1 + 2 * type.dimensions.size() : 1, 0)
                          : initial_cells(declaration.initial, type, &pou);
   if (block.constant) {
     if (declaration.initial == nullptr)

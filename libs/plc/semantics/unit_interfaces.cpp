@@ -85,13 +85,14 @@ void Unit::declare_interfaces() {
       else
         interface.parents.push_back(found);
     }
-  for (auto& [name, pou] : pous) {
-    for (const auto& one : pou.declaration->implements)
-      if (find_interface(one.name) == nullptr)
-        diagnostics_.error(one.at, "there is no interface '" + one.text + "'");
-    const auto implemented = [&](const auto& one) { return implements(*pou.declaration, one.second); };
-    if (!pou.declaration->is_abstract && std::any_of(interfaces_.begin(), interfaces_.end(), implemented))
-      implementers_.push_back(&pou);
+  for (auto& one : pous) {
+    const auto& declaration = *one.second.declaration;
+    for (const auto& wanted : declaration.implements)
+      if (find_interface(wanted.name) == nullptr)
+        diagnostics_.error(wanted.at, "there is no interface '" + wanted.text + "'");
+    const auto implemented = [&](const auto& pair) { return implements(declaration, pair.second); };
+    if (!declaration.is_abstract && std::any_of(interfaces_.begin(), interfaces_.end(), implemented))
+      implementers_.push_back(&one.second);
   }
 }
 

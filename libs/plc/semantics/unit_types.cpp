@@ -178,7 +178,15 @@ const Enumerator* Unit::find_enumerator(const std::string& upper, const Type** t
 }
 
 const Type* Unit::array(const TypeSpec& spec, Pou* context) {
+  const bool is_in_out = &spec == in_out_spec_;
   const auto* element = build(*spec.element, "", context);
+  const auto is_open = [](const TypeSpec::Dimension& dimension) { return dimension.low == nullptr; };
+  if (std::any_of(spec.dimensions.begin(), spec.dimensions.end(), is_open)) {
+    if (is_in_out && std::all_of(spec.dimensions.begin(), spec.dimensions.end(), is_open))
+      return open_array(spec, element);
+    diagnostics_.error(spec.at, "ARRAY[*] is for VAR_IN_OUT, where the caller's array gives every limit");
+    return elementary(Kind::error);
+  }
   Type type;
   type.kind = Kind::array;
   type.element = element;
@@ -214,6 +222,21 @@ const Type* Unit::array(const TypeSpec& spec, Pou* context) {
   for (std::int64_t i = 0; i < elements; ++i)
     type.initial.insert(type.initial.end(), element->initial.begin(), element->initial.end());
   return &types_.emplace_back(std::move(type));
+}
+
+const Type* Unit::open_array(const TypeSpec& spec, const Type* element) {
+  if (element->kind == Kind::error) return element;
+  auto& type = types_.emplace_back();
+  type.kind = Kind::array;
+  type.open = true;
+  type.element = element;
+  type.dimensions.resize(spec.dimensions.size());
+  type.name = "ARRAY[";
+  for (std::size_t i = 0; i < spec.dimensions.size(); ++i) type.name += i == 0 ? "*" : ",*";
+  type.name += "] OF " + element->name;
+  type.cells = element->cells;
+  type.initial = element->initial;
+  return &type;
 }
 
 const Type* Unit::structure(const TypeSpec& spec, const std::string& name, Pou* context) {

@@ -115,7 +115,7 @@ struct VariableDeclaration {
 struct TypeSpec {
   enum class Kind { named, array, string, structure, enumeration };
   struct Dimension {
-    ExpressionPtr low, high;
+    ExpressionPtr low, high;  ///< of ARRAY[*] none
   };
   struct Enumerator {
     std::string name, text;

@@ -81,6 +81,7 @@ TypeSpecPtr DeclarationParser::type_spec() {
     expect_symbol("[", "before the limits of the array");
     do {
       auto& dimension = spec->dimensions.emplace_back();
+      if (accept_symbol("*")) continue;
       dimension.low = expression();
       expect_symbol("..", "between the limits of the array");
       dimension.high = expression();

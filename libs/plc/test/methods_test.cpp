@@ -78,14 +78,14 @@ TEST(Methods, NameTheirInstanceWithThis) {
   EXPECT_EQ(program.get("o.inner.n"), "12");
 }
 
-TEST(Methods, UseVarInOutConstantsAndRegistersOfTheirBlock) {
-  Translated program(
-      "VAR b : B; x : INT := 4; END_VAR", "b(x := x);",
-      "FUNCTION_BLOCK B VAR_IN_OUT x : INT; END_VAR VAR CONSTANT k : INT := 10; END_VAR\n"
-      "VAR lamp AT %Y3.1 : BOOL; a : ARRAY[0..2] OF INT; END_VAR\n"
-      "METHOD step VAR_INPUT i : INT; END_VAR a[i] := x + k; x := a[i]; lamp := x > k; END_METHOD\n"
-      "step(2);\n"
-      "END_FUNCTION_BLOCK\n");
+TEST(Methods, UseConstantsRegistersAndArraysOfTheirBlock) {
+  Translated program("VAR b : B; x : INT := 4; END_VAR", "b(x := x);",
+                     "FUNCTION_BLOCK B VAR_IN_OUT x : INT; END_VAR VAR CONSTANT k : INT := 10; END_VAR\n"
+                     "VAR lamp AT %Y3.1 : BOOL; a : ARRAY[0..2] OF INT; END_VAR\n"
+                     "METHOD step VAR_INPUT i : INT; END_VAR VAR_IN_OUT y : INT; END_VAR\n"
+                     "a[i] := y + k; y := a[i]; lamp := y > k; END_METHOD\n"
+                     "step(2, x);\n"
+                     "END_FUNCTION_BLOCK\n");
   EXPECT_EQ(program.scan(), "");
   EXPECT_EQ(program.get("x"), "14");
   EXPECT_EQ(program.get("%Y3.1"), "TRUE");
@@ -147,6 +147,9 @@ TEST(Methods, AreRefusedWithOneClearLine) {
               HasSubstr("calls or contains itself; recursion is not permitted"));
   EXPECT_THAT(in_block("METHOD m q := t; END_METHOD"),
               HasSubstr("VAR_TEMP 't' has a value in the body of the function block only"));
+  EXPECT_THAT(first_error_of("FUNCTION_BLOCK B VAR_IN_OUT x : INT; END_VAR METHOD m x := 1; END_METHOD "
+                             "END_FUNCTION_BLOCK"),
+              HasSubstr("VAR_IN_OUT 'x' is of calls of the body: pass the variable to the method"));
   EXPECT_THAT(in_block("METHOD m VAR RETAIN a : INT; END_VAR q := a; END_METHOD"),
               HasSubstr("a method keeps nothing: RETAIN is not permitted"));
   EXPECT_THAT(in_block("METHOD m VAR a : TON; END_VAR a(); END_METHOD"),
