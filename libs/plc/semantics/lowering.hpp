@@ -14,6 +14,8 @@ namespace trunnion::st {
 
 /// Whether a call gives or takes it.
 bool is_parameter(const Variable& variable, const Pou& pou);
+/// Whether it is a register.
+bool is_in_image(const Place& place);
 
 class Lowering {
  public:
@@ -43,10 +45,14 @@ class Lowering {
   Value access(const Expression& e);
   Value member(const Expression& e);
   Value part(const Expression& e);
+  Value dereference(const Expression& e);
   Value index(const Expression& e);
   Value index_number(const Expression& e);
   Value open_element(const Expression& e, Value value);
   void add_limits(const Value& array, std::vector<std::int32_t>& cells);
+  /// REF(variable); nothing for other calls.
+  std::optional<Value> reference_of(const Expression& e);
+  std::string passing(const Expression& e) const;
   std::optional<Value> array_bound(const Expression& e, const Type* expected);
   Value open_limit(std::int32_t limit, const Type* expected, Position at);
   Value unary(const Expression& e, const Type* expected);
@@ -159,6 +165,7 @@ class Lowering {
   void statement(const Statement& s);
   void assign(const Statement& s);
   void attempt(const Value& target, const Value& value, Position at);
+  void attempt_reference(const Value& target, const Value& value, Position at);
   void if_statement(const Statement& s);
   void case_statement(const Statement& s);
   void case_label(const CaseLabel& label, const Value& selector, std::vector<std::size_t>& jumps,

@@ -45,9 +45,11 @@ const Type* Lowering::instance_type(const Expression& e) const {
     const bool is_program = pou != nullptr && pou->declaration->kind == PouKind::program;
     return is_program && unit_.translated(e.name, e.at) != nullptr ? &pou->type : nullptr;
   }
-  if (e.kind != Expression::Kind::index && e.kind != Expression::Kind::member) return nullptr;
+  const bool follows = e.kind == Expression::Kind::dereference;
+  if (e.kind != Expression::Kind::index && e.kind != Expression::Kind::member && !follows) return nullptr;
   const auto* owner = instance_type(*e.parts[0]);
   if (owner == nullptr) return nullptr;
+  if (follows) return owner->kind == Kind::reference ? owner->element : nullptr;
   if (e.kind == Expression::Kind::index) return owner->kind == Kind::array ? owner->element : nullptr;
   if (owner->kind == Kind::structure) {
     const auto* field = owner->field(e.name);
@@ -138,6 +140,7 @@ Value Lowering::plain_call(const Expression& e, const Type* expected) {
                                        callee.text + "; and call name(...)");
       }
     }
+    if (auto value = reference_of(e)) return *value;
     if (auto value = array_bound(e, expected)) return *value;
     if (auto value = ladder_function(e)) return *value;
     if (auto value = standard_function(e, expected)) return *value;

@@ -18,7 +18,9 @@ bool is_number(Kind kind) {
 
 /// Whether evaluating it may stop the program or change a variable, so that it must not be evaluated in vain.
 bool has_effect(const Expression& e) {
-  if (e.kind == Expression::Kind::call || e.kind == Expression::Kind::index) return true;
+  if (e.kind == Expression::Kind::call || e.kind == Expression::Kind::index ||
+      e.kind == Expression::Kind::dereference)
+    return true;
   if (e.kind == Expression::Kind::binary && e.name == "/") return true;
   for (const auto& part : e.parts)
     if (part && has_effect(*part)) return true;
@@ -78,6 +80,8 @@ Value Lowering::expression(const Expression& e, const Type* expected) {
     case Expression::Kind::part:
     case Expression::Kind::index:
       return access(e);
+    case Expression::Kind::dereference:
+      return dereference(e);
     case Expression::Kind::unary:
       return unary(e, expected);
     case Expression::Kind::binary:

@@ -5,11 +5,6 @@
 #include "plc/semantics/lowering.hpp"
 
 namespace trunnion::st {
-namespace {
-
-constexpr int half = 32;  // bits
-
-}  // namespace
 
 Value Lowering::converted_to_interface(const Value& value, const Type& to, Position at) {
   const auto kind = value.type->kind;
@@ -24,7 +19,7 @@ Value Lowering::converted_to_interface(const Value& value, const Type& to, Posit
                           (value.is_literal() ? "a number" : value.type->name));
   auto result = temporary(&to);
   const auto number = emit_.temporary();
-  emit_.constant(number, unit_.implementer_number(*value.type->block->pou) << half);
+  emit_.constant(number, unit_.implementer_number(*value.type->block->pou) << address_bits);
   emit_.add(Op::or_, result.place.offset, address(value.place), number);
   return result;
 }
@@ -32,7 +27,7 @@ Value Lowering::converted_to_interface(const Value& value, const Type& to, Posit
 /// A fault when the value is NULL: no memory has its address.
 void Lowering::require_instance(std::int32_t value) {
   const auto mask = emit_.temporary(), address = emit_.temporary();
-  emit_.constant(mask, null_reference | ((std::uint64_t{1} << half) - 1));
+  emit_.constant(mask, null_reference | ((std::uint64_t{1} << address_bits) - 1));
   emit_.add(Op::and_, address, value, mask);
   emit_.add(Op::load_at, address, address);
 }
@@ -67,12 +62,12 @@ void Lowering::dispatch(const Pou& method, std::uint64_t number) {
   const auto self = static_cast<std::int32_t>(pou_->self);
   const auto block = emit_.temporary(), wanted = emit_.temporary();
   emit_.place(pou_->declaration->at);
-  emit_.add(Op::field_get, block, self, half, half);
+  emit_.add(Op::field_get, block, self, address_bits, address_bits);
   emit_.constant(wanted, number);
   emit_.add(Op::equal, block, block, wanted);
   const auto next = emit_.add(Op::jump_if_not, 0, block);
   const auto start = emit_.temporary(method.frame);
-  emit_.add(Op::field_get, start + static_cast<std::int32_t>(method.self), self, half, 0);
+  emit_.add(Op::field_get, start + static_cast<std::int32_t>(method.self), self, address_bits, 0);
   // Both have the same parameters, in the same order but at other cells.
   struct Pair {
     const Variable *own, *of_method;
@@ -111,9 +106,10 @@ void Lowering::end_dispatch() {
 
 /// ?=: the value if its instance implements the interface of the target, otherwise NULL.
 void Lowering::attempt(const Value& target, const Value& value, Position at) {
+  if (target.type->kind == Kind::reference) return attempt_reference(target, value, at);
   const auto kind = value.type->kind;
   if (target.type->kind != Kind::interface_ || !(kind == Kind::block || is_reference(kind))) {
-    failed(at, "?= is for variables of an interface");
+    failed(at, "?= is for references and variables of an interface");
     return;
   }
   const auto& interface = *target.type->interface;
@@ -127,7 +123,7 @@ void Lowering::attempt(const Value& target, const Value& value, Position at) {
     const auto source = cell(value);
     for (const auto* one : unit_.implementers()) {
       if (!unit_.implements(*one->declaration, interface)) continue;
-      emit_.add(Op::field_get, block, source, half, half);
+      emit_.add(Op::field_get, block, source, address_bits, address_bits);
       emit_.constant(wanted, unit_.implementer_number(*one));
       emit_.add(Op::equal, block, block, wanted);
       const auto next = emit_.add(Op::jump_if_not, 0, block);

@@ -272,6 +272,8 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
   if (from == Kind::none) return failed(at, "the function has no result");
   if (value.type->open || to.open)
     return failed(at, "ARRAY[*] is used by its elements, or passed on as VAR_IN_OUT");
+  if (from == Kind::null_ && to.kind == Kind::reference)
+    return constant_integer(&to, static_cast<std::int64_t>(null_reference));
   if (to.kind == Kind::interface_) return converted_to_interface(value, to, at);
   if (from == Kind::integer_literal) {
     const bool number = is_integer(to.kind) || (is_bits(to.kind)) || to.kind == Kind::integer_literal;

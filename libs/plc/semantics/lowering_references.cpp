@@ -31,11 +31,11 @@ std::string text_of(const Place& place) {
   return register_text(at);
 }
 
+}  // namespace
+
 bool is_in_image(const Place& place) {
   return place.base == Place::Base::absolute && static_cast<std::uint32_t>(place.offset) < image_cells;
 }
-
-}  // namespace
 
 Value Lowering::access(const Expression& e) {
   const auto* before = accessed_;

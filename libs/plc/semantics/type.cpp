@@ -128,7 +128,9 @@ bool is_bits(Kind kind) { return kind <= Kind::lword; }
 bool is_duration(Kind kind) { return kind == Kind::time || kind == Kind::ltime; }
 bool is_date(Kind kind) { return kind == Kind::date || kind == Kind::tod || kind == Kind::dt; }
 bool is_elementary(Kind kind) { return kind < Kind::string || kind == Kind::enumeration; }
-bool is_reference(Kind kind) { return kind == Kind::interface_ || kind == Kind::null_; }
+bool is_reference(Kind kind) {
+  return kind == Kind::interface_ || kind == Kind::reference || kind == Kind::null_;
+}
 bool is_one_cell(Kind kind) { return is_elementary(kind) || is_reference(kind); }
 
 int bits(Kind kind) {
@@ -184,6 +186,9 @@ bool same_type(const Type& a, const Type& b) {
   if (a.kind == Kind::enumeration)
     return a.name == b.name && std::equal(a.enumerators.begin(), a.enumerators.end(), b.enumerators.begin(),
                                           b.enumerators.end(), named);
+  if (a.kind == Kind::reference)
+    return same_type(*a.element, *b.element) && a.element->ranged == b.element->ranged &&
+           a.element->low == b.element->low && a.element->high == b.element->high;
   if (a.kind == Kind::interface_) return a.interface == b.interface;
   return a.kind == Kind::block && a.block == b.block;
 }

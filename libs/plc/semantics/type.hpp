@@ -37,6 +37,7 @@ enum class Kind : std::uint8_t {
   structure,
   block,
   interface_,       ///< one cell: the place of an instance and which block it is of; see null_reference
+  reference,        ///< one cell: the address of a variable of the type `element`
   null_,            ///< NULL
   integer_literal,  ///< takes the type of what it meets
   real_literal,
@@ -66,6 +67,8 @@ struct Interface;
 
 /// NULL: an address that no memory has, so that its use is a fault.
 inline constexpr std::uint64_t null_reference = std::uint64_t{1} << 63;
+/// Bits of the address in a value of an interface; the number of the block is above it.
+inline constexpr int address_bits = 32;
 
 struct Type {
   Kind kind = Kind::error;
@@ -99,7 +102,7 @@ bool is_bits(Kind kind);      ///< BOOL .. LWORD
 bool is_duration(Kind kind);  ///< TIME, LTIME
 bool is_date(Kind kind);      ///< DATE, TOD, DT
 bool is_elementary(Kind kind);
-bool is_reference(Kind kind);  ///< of an interface, NULL
+bool is_reference(Kind kind);  ///< REF_TO, of an interface, NULL
 bool is_one_cell(Kind kind);   ///< elementary or a reference
 /// Bits of an integer, bit string or enumeration.
 int bits(Kind kind);

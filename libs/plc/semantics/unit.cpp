@@ -333,6 +333,8 @@ void Unit::translate(Pou& pou) {
   find_parent(pou);
   declare_variables(pou);
   check_methods(pou);
+  // Every instance has an address of its own, which values of interfaces are.
+  if (pou.declaration->kind == PouKind::function_block && pou.initial.empty()) pou.initial.push_back(0);
   pou.is_declared = true;
   pou.frame = static_cast<std::uint32_t>(pou.initial.size());
   Lowering lowering(*this, &pou, pou.frame);

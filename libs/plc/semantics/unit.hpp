@@ -112,6 +112,7 @@ class Unit {
   const Type* type_of(const TypeSpec& spec, Pou* context);
   const Type* named_type(const std::string& upper);
   const Type* string_type(std::uint32_t length, bool wide = false);
+  const Type* reference_type(const Type& element);
   /// The value of a constant expression, converted to the type; false when it is none, which is reported.
   bool constant(const Expression& expression, const Type& type, Pou* context, Value& value);
   /// Cells of an initial value.
@@ -218,6 +219,7 @@ class Unit {
   std::map<std::string, const Type*, std::less<>> named_;
   std::map<std::string, const TypeDeclaration*, std::less<>> declared_;
   std::set<std::string> in_progress_;
+  std::map<const Type*, const Type*> references_to_;
   const TypeSpec* in_out_spec_ = nullptr;  ///< of the VAR_IN_OUT that is declared
   std::map<std::pair<std::uint32_t, bool>, const Type*> strings_;
   std::map<std::string, Variable*, std::less<>> global_names_;

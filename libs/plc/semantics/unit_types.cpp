@@ -65,6 +65,19 @@ const Type* Unit::string_type(std::uint32_t length, bool wide) {
   return known;
 }
 
+const Type* Unit::reference_type(const Type& element) {
+  auto& known = references_to_[&element];
+  if (known == nullptr) {
+    auto& type = types_.emplace_back();
+    type.kind = Kind::reference;
+    type.name = "REF_TO " + element.name;
+    type.element = &element;
+    type.initial = {null_reference};
+    known = &type;
+  }
+  return known;
+}
+
 const Type* Unit::type_of(const TypeSpec& spec, Pou* context) { return build(spec, "", context); }
 
 const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* context) {
@@ -75,6 +88,10 @@ const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* cont
       return structure(spec, name.empty() ? "structure" : name, context);
     case TypeSpec::Kind::array:
       return array(spec, context);
+    case TypeSpec::Kind::reference: {
+      const auto* element = build(*spec.element, "", context);
+      return element->kind == Kind::error ? element : reference_type(*element);
+    }
     case TypeSpec::Kind::string: {
       const bool wide = spec.name == "WSTRING";
       const auto longest = wide ? longest_wide_string : longest_string;

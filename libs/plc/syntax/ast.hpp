@@ -27,22 +27,23 @@ enum class NameScope { any, instance, base };
 
 struct Expression {
   enum class Kind {
-    integer,    ///< text: digits, base
-    real,       ///< text
-    boolean,    ///< text: "1" or "0"
-    string,     ///< text; base 16: WSTRING
-    time,       ///< name: prefix, text
-    name,       ///< text, name
-    direct,     ///< name: address without percent sign
-    member,     ///< parts[0].name
-    part,       ///< parts[0].%name
-    index,      ///< parts[0][parts[1..]]
-    unary,      ///< name: - or NOT
-    binary,     ///< name: operator
-    call,       ///< parts[0](arguments)
-    typed,      ///< name#parts[0]
-    list,       ///< [a, b, 2(c)]: parts; repetitions in `repeat`
-    structure,  ///< (a := 1, b := 2): arguments
+    integer,      ///< text: digits, base
+    real,         ///< text
+    boolean,      ///< text: "1" or "0"
+    string,       ///< text; base 16: WSTRING
+    time,         ///< name: prefix, text
+    name,         ///< text, name
+    direct,       ///< name: address without percent sign
+    member,       ///< parts[0].name
+    part,         ///< parts[0].%name
+    index,        ///< parts[0][parts[1..]]
+    dereference,  ///< parts[0]^
+    unary,        ///< name: - or NOT
+    binary,       ///< name: operator
+    call,         ///< parts[0](arguments)
+    typed,        ///< name#parts[0]
+    list,         ///< [a, b, 2(c)]: parts; repetitions in `repeat`
+    structure,    ///< (a := 1, b := 2): arguments
   };
   Kind kind = Kind::integer;
   Position at;
@@ -113,7 +114,7 @@ struct VariableDeclaration {
 };
 
 struct TypeSpec {
-  enum class Kind { named, array, string, structure, enumeration };
+  enum class Kind { named, array, string, structure, enumeration, reference };
   struct Dimension {
     ExpressionPtr low, high;  ///< of ARRAY[*] none
   };
@@ -127,7 +128,7 @@ struct TypeSpec {
   std::string name, text;   ///< of named; of an enumeration the type of its values, if it says one
   ExpressionPtr low, high;  ///< of a subrange
   std::vector<Dimension> dimensions;
-  TypeSpecPtr element;   ///< of an array
+  TypeSpecPtr element;   ///< of an array or a reference
   ExpressionPtr length;  ///< of a string
   std::vector<VariableDeclaration> fields;
   std::vector<Enumerator> enumerators;

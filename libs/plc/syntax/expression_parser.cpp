@@ -195,8 +195,8 @@ void ExpressionParser::refuse_pointer() {
   if (!has_refused_pointer_)
     diagnostics_.error(
         now().at,
-        "there are no pointers and references; pass the variable as VAR_IN_OUT, and take bytes of a "
-        "string with MID");
+        "there are no pointers; write REF_TO, pass the variable as VAR_IN_OUT, and take bytes of a string "
+        "with MID");
   has_refused_pointer_ = true;
 }
 
@@ -270,8 +270,10 @@ ExpressionPtr ExpressionParser::designator() {
       member->parts.push_back(std::move(node));
       node = std::move(member);
     } else if (is_symbol("^")) {
-      refuse_pointer();
-      take();
+      auto value = make(Expression::Kind::dereference, take().at);
+      value->text = node->text + "^";
+      value->parts.push_back(std::move(node));
+      node = std::move(value);
     } else if (is_symbol("[")) {
       auto index = make(Expression::Kind::index, take().at);
       index->parts.push_back(std::move(node));

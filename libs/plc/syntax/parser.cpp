@@ -89,6 +89,10 @@ TypeSpecPtr DeclarationParser::type_spec() {
     expect_symbol("]", "behind the limits of the array");
     expect_word("OF", "before the type of the elements");
     spec->element = type_spec();
+  } else if (is_word("REF_TO") && ahead().kind == TokenKind::identifier) {
+    take();
+    spec->kind = TypeSpec::Kind::reference;
+    spec->element = type_spec();
   } else if (is_word("POINTER") && ahead().upper == "TO") {
     refuse_pointer();
     take(), take();

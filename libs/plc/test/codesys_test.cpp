@@ -88,7 +88,7 @@ TEST(Codesys, RefusesPointersWithOneLineOfEachUnit) {
                               "FUNCTION f : INT VAR_INPUT p : POINTER TO ARRAY[0..9] OF INT; END_VAR\n"
                               "IF p^[1] > 0 THEN p^[1] := 0; END_IF; f := p^[2]; END_FUNCTION\n");
   EXPECT_THAT(lines, testing::ElementsAre(
-                         "t.exp:1:32: error: there are no pointers and references; pass the variable as "
+                         "t.exp:1:32: error: there are no pointers; write REF_TO, pass the variable as "
                          "VAR_IN_OUT, and take bytes of a string with MID"));
 }
 

@@ -113,7 +113,7 @@ TEST(Interfaces, AreRefusedWithOneClearLine) {
   EXPECT_THAT(first("", "i := d;"), HasSubstr("expected INT, found Device"));
   EXPECT_THAT(first("", "d.stop();"), HasSubstr("the interface 'Device' has no method 'stop'"));
   EXPECT_THAT(first("", "IF d < e THEN ; END_IF;"), HasSubstr("references are compared by = and <> only"));
-  EXPECT_THAT(first("", "i ?= d;"), HasSubstr("?= is for variables of an interface"));
+  EXPECT_THAT(first("", "i ?= d;"), HasSubstr("?= is for references and variables of an interface"));
   EXPECT_THAT(first("FUNCTION_BLOCK B IMPLEMENTS Clock END_FUNCTION_BLOCK"),
               HasSubstr("'B' has no method 'passed' for the interface 'Clock'"));
   EXPECT_THAT(first("FUNCTION_BLOCK B IMPLEMENTS Clock METHOD passed : INT END_METHOD END_FUNCTION_BLOCK"),

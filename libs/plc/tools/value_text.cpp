@@ -91,6 +91,8 @@ std::string value_text(const Type& type, std::span<const std::uint64_t> cells) {
     case Kind::interface_:
       return cells[0] == null_reference ? "NULL"
                                         : "an instance at cell " + std::to_string(cells[0] & 0xffffffffu);
+    case Kind::reference:
+      return cells[0] == null_reference ? "NULL" : "the variable at cell " + std::to_string(cells[0]);
     case Kind::array: {
       std::string text = "[";
       for (std::uint32_t i = 0; i < type.cells; i += type.element->cells)
