@@ -155,6 +155,10 @@ Value Lowering::plain_call(const Expression& e, const Type* expected) {
     return failed(callee.at, "'" + callee.text + "' is " + instance.type->name + " and cannot be called");
   if (instance.type->block->pou->declaration->is_class)
     return failed(callee.at, "'" + callee.text + "' is an instance of a class: call one of its methods");
+  const auto& block = *instance.type->block->pou;
+  if (block.state == Pou::State::in_progress &&
+      unit_.translated(block.declaration->name, callee.at) == nullptr)
+    return error();
   call_block(instance, e);
   return none;
 }

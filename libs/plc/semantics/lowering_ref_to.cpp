@@ -15,7 +15,7 @@ constexpr const char* register_refusal = "a register has no reference; copy it t
 Value Lowering::dereference(const Expression& e) {
   const auto value = kept(expression(*e.parts[0]));
   if (value.is_error()) return value;
-  if (value.type->kind != Kind::reference)
+  if (value.type->kind != Kind::reference || value.type->element == nullptr)
     return failed(e.at, value.type->name + " is no reference, so it has no '^'");
   Value result;
   result.type = value.type->element;

@@ -186,6 +186,7 @@ bool same_type(const Type& a, const Type& b) {
   if (a.kind == Kind::enumeration)
     return a.name == b.name && std::equal(a.enumerators.begin(), a.enumerators.end(), b.enumerators.begin(),
                                           b.enumerators.end(), named);
+  if (a.kind == Kind::reference && (a.element == nullptr || b.element == nullptr)) return false;
   if (a.kind == Kind::reference)
     return same_type(*a.element, *b.element) && a.element->ranged == b.element->ranged &&
            a.element->low == b.element->low && a.element->high == b.element->high;

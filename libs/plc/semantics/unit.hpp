@@ -178,6 +178,8 @@ class Unit {
   const Type* enumeration(const TypeSpec& spec, const std::string& name);
   const Type* array(const TypeSpec& spec, Pou* context);
   const Type* open_array(const TypeSpec& spec, const Type* element);
+  const Type* reference(const TypeSpec& element, Pou* context);
+  const Type* named(const std::string& upper, const Type* type);
   const Type* structure(const TypeSpec& spec, const std::string& name, Pou* context);
   const Type* subrange(const TypeSpec& spec, const Type* base, Pou* context);
   const Type* build(const TypeSpec& spec, const std::string& name, Pou* context);
@@ -220,7 +222,8 @@ class Unit {
   std::map<std::string, const TypeDeclaration*, std::less<>> declared_;
   std::set<std::string> in_progress_;
   std::map<const Type*, const Type*> references_to_;
-  const TypeSpec* in_out_spec_ = nullptr;  ///< of the VAR_IN_OUT that is declared
+  std::vector<std::pair<Type*, std::string>> open_references_;  ///< to types that contain them
+  const TypeSpec* in_out_spec_ = nullptr;                       ///< of the VAR_IN_OUT that is declared
   std::map<std::pair<std::uint32_t, bool>, const Type*> strings_;
   std::map<std::string, Variable*, std::less<>> global_names_;
   std::map<std::string, std::vector<std::pair<const Type*, const Enumerator*>>, std::less<>> enumerators_;

@@ -12,6 +12,15 @@ namespace {
 constexpr std::uint32_t default_string = 80;
 constexpr std::int64_t most_elements = 1 << 19;
 
+/// Through references and arrays alone, so that there is no variable behind them.
+bool leads_to(const Type* from, const Type* to) {
+  const auto leads = [](const Type& type) {
+    return type.kind == Kind::reference || type.kind == Kind::array;
+  };
+  while (from != nullptr && from != to && leads(*from)) from = from->element;
+  return from == to;
+}
+
 }  // namespace
 
 void Unit::register_types() {
@@ -39,7 +48,7 @@ const Type* Unit::named_type(const std::string& upper) {
     return named_[upper] = elementary(Kind::error);
   }
   const auto* type = build(*declaration.type, declaration.text, nullptr);
-  if (const auto again = named_.find(upper); again != named_.end()) return again->second;
+  if (const auto again = named_.find(upper); again != named_.end()) return named(upper, again->second);
   if (declaration.initial != nullptr && type->kind != Kind::error) {
     named_[upper] = type;  // TYPE Colour : (red, green) := Colour#green
     auto& own = types_.emplace_back(*type);
@@ -47,7 +56,38 @@ const Type* Unit::named_type(const std::string& upper) {
     type = &own;
   }
   in_progress_.erase(upper);
+  return named(upper, type);
+}
+
+/// The type has its name, and references in it have their type.
+const Type* Unit::named(const std::string& upper, const Type* type) {
+  for (auto& [reference, name] : open_references_) {
+    if (name != upper) continue;
+    reference->element = leads_to(type, reference) ? elementary(Kind::error) : type;
+    if (reference->element != type)
+      diagnostics_.error(declared_.at(upper)->at,
+                         "the type '" + declared_.at(upper)->text + "' contains itself");
+  }
   return named_[upper] = type;
+}
+
+/// A structure or function block may contain a reference to its own type, as the elements of a list do.
+const Type* Unit::reference(const TypeSpec& element, Pou* context) {
+  const bool is_named = element.kind == TypeSpec::Kind::named && !element.low;
+  if (auto* pou = is_named ? find_pou(element.name) : nullptr;
+      pou != nullptr && pou->declaration->kind == PouKind::function_block &&
+      pou->state == Pou::State::in_progress)
+    return reference_type(pou->type);
+  if (is_named && in_progress_.contains(element.name) && !named_.contains(element.name)) {
+    auto& type = types_.emplace_back();
+    type.kind = Kind::reference;
+    type.name = "REF_TO " + element.text;
+    type.initial = {null_reference};
+    open_references_.emplace_back(&type, element.name);
+    return &type;
+  }
+  const auto* type = build(element, "", context);
+  return type->kind == Kind::error ? type : reference_type(*type);
 }
 
 const Type* Unit::string_type(std::uint32_t length, bool wide) {
@@ -88,10 +128,8 @@ const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* cont
       return structure(spec, name.empty() ? "structure" : name, context);
     case TypeSpec::Kind::array:
       return array(spec, context);
-    case TypeSpec::Kind::reference: {
-      const auto* element = build(*spec.element, "", context);
-      return element->kind == Kind::error ? element : reference_type(*element);
-    }
+    case TypeSpec::Kind::reference:
+      return reference(*spec.element, context);
     case TypeSpec::Kind::string: {
       const bool wide = spec.name == "WSTRING";
       const auto longest = wide ? longest_wide_string : longest_string;

@@ -58,6 +58,23 @@ TEST(References, AreParametersAndResults) {
 }
 
 // As at an index outside an array the PLC stops and names the place.
+// Lists: an element names the next one of its own type.
+TEST(References, AreInTheTypeThatTheyName) {
+  Translated program(
+      "VAR items : ARRAY[1..3] OF Item; it : REF_TO Item; sum, i : INT; a, b : Node; END_VAR",
+      "FOR i := 1 TO 2 DO items[i].next := REF(items[i + 1]); END_FOR;\n"
+      "FOR i := 1 TO 3 DO items[i].value := 10 * i; END_FOR;\n"
+      "it := REF(items[1]); WHILE it <> NULL DO sum := sum + it^.value; it := it^.next; END_WHILE;\n"
+      "sum := sum + items[1].next^.next^.value; a.value := 1; a.next := REF(b); b.value := 2; a();",
+      "TYPE Item : STRUCT value : INT; next : REF_TO Item; END_STRUCT; END_TYPE\n"
+      "FUNCTION_BLOCK Node VAR_INPUT value : INT; next : REF_TO Node; END_VAR VAR_OUTPUT sum : INT; END_VAR\n"
+      "sum := value + next^.value; END_FUNCTION_BLOCK\n");
+  EXPECT_EQ(verify(*program.compilation.code), "");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("sum"), "90");  // 10 + 20 + 30, and once more the last one
+  EXPECT_EQ(program.get("a.sum"), "3");
+}
+
 TEST(References, StopAtNull) {
   for (const char* use : {"p^ := 1;", "i := p^;", "r^.y := 1;", "pa^[i] := 1;", "rs^ := 'a';",
                           "rt^(IN := TRUE);", "rs2 := rs^;", "pt := r^;"}) {
@@ -96,6 +113,12 @@ TEST(References, AreRefusedWithOneClearLine) {
   EXPECT_THAT(first("pb := REF(%X0.1);"), HasSubstr("a register has no reference"));
   EXPECT_THAT(first("IF p < p THEN ; END_IF;"), HasSubstr("references are compared by = and <> only"));
   EXPECT_THAT(first("", "VAR_GLOBAL RETAIN k : REF_TO INT; END_VAR "), HasSubstr("RETAIN is not permitted"));
+  EXPECT_THAT(first("", "FUNCTION_BLOCK B VAR next : REF_TO B; END_VAR next^(); END_FUNCTION_BLOCK "),
+              HasSubstr("'B' calls or contains itself"));
+  EXPECT_THAT(first("", "TYPE S : STRUCT s : S; r : REF_TO S; END_STRUCT; END_TYPE "),
+              HasSubstr("the type 'S' contains itself"));
+  EXPECT_THAT(first("", "TYPE P : REF_TO Q; Q : REF_TO ARRAY[0..1] OF P; END_TYPE "),
+              HasSubstr("contains itself"));
   const auto* gone = "may be gone when the reference is used";
   EXPECT_THAT(first("", "FUNCTION f : REF_TO INT VAR i : INT; END_VAR f := REF(i); END_FUNCTION "),
               HasSubstr(gone));
