@@ -369,7 +369,7 @@ Fault Machine::execute(std::size_t entry, std::int64_t now, std::int64_t budget,
       case Op::call_at: {
         const auto& routine = routines[in.a];
         const auto frame = in.op == Op::call ? static_cast<std::uint64_t>(in.b) : m[in.b];
-        if (frame > size - routine.frame) {
+        if (routine.frame > size || frame > size - routine.frame) {
           stop(FaultKind::reference);
           break;
         }

@@ -47,7 +47,7 @@ class Verifier {
   std::string routine(std::size_t number) const {
     const auto& r = code_.routines[number];
     const auto name = "routine " + std::to_string(number);
-    if (r.entry >= r.end || r.end > code_.code.size() || r.frame > code_.initial.size())
+    if (r.entry >= r.end || r.end > code_.code.size() || r.frame > most_cells)
       return name + " is outside the code";
     // What follows the last instruction is another routine's.
     const auto last = code_.code[r.end - 1].op;

@@ -2,6 +2,7 @@
 // Methods: their variables, the running instance, calls. The frame of a method is among the intermediate
 // results of its caller, so a task that is interrupted in one keeps it.
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "plc/semantics/lowering.hpp"
@@ -128,6 +129,9 @@ Value Lowering::call_method(const MethodCall& called, const Expression& e) {
 Value Lowering::call_with_frame(const Pou& method, std::int32_t self, const Expression& e) {
   std::vector<const Argument*> bound;
   if (!bind(method, e, false, bound)) return error();
+  if (emit_.mark() + std::uint64_t{method.frame} > most_cells)
+    return failed(e.parts[0]->at, "the variables of the methods that this statement calls need more than " +
+                                      std::to_string(most_cells) + " cells");
   const auto start = emit_.temporary(method.frame);
   const auto value_of = [&](const Variable& variable, bool writable) {
     Value value;

@@ -350,7 +350,8 @@ void Unit::translate(Pou& pou) {
         lowering.initialize(variable);
   lowering.body(pou.declaration->body);
   pou.frame = lowering.emitter().frame();
-  pou.initial.resize(pou.frame, 0);
+  check_frame(pou);
+  if (!pou.is_method()) pou.initial.resize(pou.frame, 0);
   pou.routine = add_routine(lowering.emitter(), pou.frame);
   pou.type.cells = pou.frame;
   pou.type.initial = pou.initial;
@@ -396,6 +397,12 @@ std::uint32_t Unit::add_routine(Emitter& emitter, std::uint32_t frame) {
   for (const auto& line : emitter.lines()) code.lines.push_back({entry + line.instruction, line.at});
   code.routines.push_back({entry, static_cast<std::uint32_t>(code.code.size()), frame});
   return static_cast<std::uint32_t>(code.routines.size() - 1);
+}
+
+void Unit::check_frame(const Pou& pou) {
+  if (pou.frame > most_cells)
+    diagnostics_.error(pou.declaration->at, "the variables of '" + title_of(pou) + "' need more than " +
+                                                std::to_string(most_cells) + " cells");
 }
 
 std::uint32_t Unit::allocate(const std::vector<std::uint64_t>& initial) {

@@ -147,6 +147,7 @@ class Unit {
   std::uint32_t string_constant(const std::string& text);
   std::int32_t range_entry(Range range);
   std::uint32_t add_routine(Emitter& emitter, std::uint32_t frame);
+  void check_frame(const Pou& pou);
   /// Whether the rules of CoDeSys 2.3 for operands of different types hold here (docs/plc.md).
   bool is_codesys(Position at) const { return codesys_files.contains(at.file); }
   std::set<std::uint16_t> codesys_files;

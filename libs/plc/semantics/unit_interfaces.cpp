@@ -146,6 +146,7 @@ void Unit::translate_dispatcher(Pou& pou) {
   }
   lowering.end_dispatch();
   pou.frame = lowering.emitter().frame();
+  check_frame(pou);
   pou.routine = add_routine(lowering.emitter(), pou.frame);
 }
 

@@ -165,6 +165,29 @@ TEST(Methods, AreRefusedWithOneClearLine) {
               HasSubstr("THIS and SUPER are for function blocks and their methods"));
 }
 
+// Each method has the frames of the two calls in its statement among its own cells: 100 * 2^k cells.
+TEST(Methods, AreRefusedWhenTheirVariablesNeedTooManyCells) {
+  std::string text =
+      "FUNCTION_BLOCK B METHOD m0 : INT VAR a : ARRAY[0..99] OF INT; END_VAR m0 := a[1]; END_METHOD\n";
+  for (int k = 1; k < 16; ++k) {
+    const auto name = "m" + std::to_string(k), other = "m" + std::to_string(k - 1);
+    text += "METHOD " + name + " : INT " + name + " := " + other + "() + " + other + "(); END_METHOD\n";
+  }
+  EXPECT_THAT(first_error_of(text + "END_FUNCTION_BLOCK\n"),
+              testing::HasSubstr(
+                  "the variables of the methods that this statement calls need more than 1048576 cells"));
+}
+
+// A block without an instance is in the byte code, but its variables are not in the memory.
+TEST(Methods, OfBlocksWithoutAnInstanceMayBeLargerThanTheMemory) {
+  Translated program("VAR i : INT; END_VAR", "i := 1;",
+                     "FUNCTION_BLOCK B VAR a : ARRAY[0..99999] OF INT; END_VAR\n"
+                     "METHOD m : INT VAR b : ARRAY[0..99999] OF INT; END_VAR m := b[1] + a[1]; END_METHOD\n"
+                     "a[0] := m(); END_FUNCTION_BLOCK\n");
+  EXPECT_EQ(verify(*program.compilation.code), "");
+  EXPECT_EQ(program.scan(), "");
+}
+
 // They are no keywords elsewhere: programs of before may have such variables.
 TEST(Methods, LeaveTheirWordsAsNames) {
   Translated program("VAR method, public, private, this, super : INT; END_VAR",
