@@ -284,7 +284,7 @@ int test(const PlcOptions& options, bool json) {
     throw std::runtime_error(options.directory + ": is no directory");
   for (const auto& entry : std::filesystem::directory_iterator(options.directory))
     if (entry.path().extension() == ".st" || entry.path().extension() == ".xml" ||
-        entry.path().filename() == "devices.yaml")
+        st::is_codesys_export(entry.path().string()) || entry.path().filename() == "devices.yaml")
       files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   if (files.empty()) throw std::runtime_error(options.directory + ": has no .st file");

@@ -121,13 +121,17 @@ std::uint64_t Compilation::layout() const {
         add(std::to_string(symbol.address - image_cells + layout_origin)),
         add(std::to_string(symbol.type->cells));
   }
+  for (const auto& name : implementers) add(name);
   add(code ? std::to_string(code->initial.size() - image_cells + layout_origin) : "");
   return hash;
 }
 
 bool is_compiled(const std::string& name) {
-  return (name.ends_with(".st") && !name.ends_with("_test.st")) || plcopen::is_plcopen(name);
+  return (name.ends_with(".st") && !name.ends_with("_test.st")) || is_codesys_export(name) ||
+         plcopen::is_plcopen(name);
 }
+
+bool is_codesys_export(const std::string& name) { return name.ends_with(".exp") || name.ends_with(".EXP"); }
 
 Compilation compile(const std::vector<Source>& sources, const RegisterNames& registers,
                     bool entries_for_functions) {
@@ -149,6 +153,9 @@ Compilation compile(const std::vector<Source>& sources, const RegisterNames& reg
       parse(source.text, file, kept->tree, kept->diagnostics);
   }
   auto& unit = kept->unit.emplace(kept->tree, kept->diagnostics, kept->registers, library_files);
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    if (is_codesys_export(sources[i].name))
+      unit.codesys_files.insert(static_cast<std::uint16_t>(library_files + i));
   // What could not be read is missing, so names are not checked then.
   if (kept->diagnostics.errors() == 0) unit.run();
   if (kept->diagnostics.errors() == 0) {
@@ -176,6 +183,7 @@ Compilation compile(const std::vector<Source>& sources, const RegisterNames& reg
     if (entries_for_functions)
       unit.code.entries.push_back({pou->declaration->name, pou->routine, pou->base, false});
   }
+  for (const auto* block : unit.implementers()) result.implementers.push_back(block->declaration->text);
   unit.code.files = result.files;
   result.code = std::make_shared<ByteCode>(std::move(unit.code));
   return result;

@@ -57,6 +57,7 @@ struct Compilation {
   std::vector<std::string> constants;  ///< paths of constants, which have no place in memory
   std::vector<FunctionInterface> functions;
   std::vector<TaskStatements> tasks;
+  std::vector<std::string> implementers;  ///< blocks that values of interfaces name by their number
   std::vector<CrossReference> references;
   std::shared_ptr<const void> types;  ///< owns what symbols point to
 
@@ -67,8 +68,11 @@ struct Compilation {
   std::uint64_t layout() const;
 };
 
-/// Whether a file of a directory with PLC programs is compiled: .st except *_test.st, and .xml.
+/// Whether a file of a directory with PLC programs is compiled: .st except *_test.st, .exp and .xml.
 bool is_compiled(const std::string& name);
+
+/// Whether it is an export of CoDeSys 2.3 (.exp), whose units have its rules for operands of different types.
+bool is_codesys_export(const std::string& name);
 
 /// All sources together; `registers` are names of registers that a program may use without declaration. For
 /// the call of a function alone, `entries_for_functions` adds an entry per function.

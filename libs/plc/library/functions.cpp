@@ -123,6 +123,11 @@ std::optional<ConversionName> conversion_name(const std::string& upper,
   return std::nullopt;
 }
 
+bool is_replaceable_function(const std::string& upper) {
+  constexpr auto names = std::to_array<std::string_view>({"ATAN2", "FLOOR", "CEIL", "DAY_OF_WEEK"});
+  return std::ranges::count(names, upper) > 0;
+}
+
 bool is_standard_function(const std::string& upper) {
   constexpr auto operators = std::to_array<std::string_view>({"NOT", "AND", "OR", "XOR", "MOD"});
   return find_function(upper) != nullptr || std::ranges::count(operators, upper) > 0 ||

@@ -51,6 +51,9 @@ std::optional<ConversionName> conversion_name(const std::string& upper,
                                               const std::function<bool(const std::string&)>& is_type);
 /// Also conversions.
 bool is_standard_function(const std::string& upper);
+/// Whether the second edition of the standard does not have it: older programs have one of their own, which
+/// takes its place. Nothing in the library calls these.
+bool is_replaceable_function(const std::string& upper);
 
 extern const char* const standard_blocks_text;  ///< library/standard_blocks.st
 

@@ -59,7 +59,8 @@ namespace trunnion::st {
   X(from_bcd, w, r, -)         /* a = value of the 16 decimal digits of b */                           \
   X(to_bcd, w, r, -)           /* a = the last 16 decimal digits of b */                               \
   X(is_bcd, w, r, -)           /* a = every digit of b is below 10 */                                  \
-  X(swap_bytes, w, r, -)       /* n: as narrow; the bytes of b in reverse order */
+  X(swap_bytes, w, r, -)       /* n: as narrow; the bytes of b in reverse order */                     \
+  X(check_limits, w, r, r)     /* a = b - c; a fault outside c .. the cell behind c */
 // clang-format on
 
 enum class Op : std::uint16_t {

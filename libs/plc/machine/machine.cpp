@@ -369,7 +369,7 @@ Fault Machine::execute(std::size_t entry, std::int64_t now, std::int64_t budget,
       case Op::call_at: {
         const auto& routine = routines[in.a];
         const auto frame = in.op == Op::call ? static_cast<std::uint64_t>(in.b) : m[in.b];
-        if (frame > size - routine.frame) {
+        if (routine.frame > size || frame > size - routine.frame) {
           stop(FaultKind::reference);
           break;
         }
@@ -399,6 +399,15 @@ Fault Machine::execute(std::size_t entry, std::int64_t now, std::int64_t budget,
           continue;
         }
         stop(FaultKind::index, value, range.low, range.high);
+        break;
+      }
+      case Op::check_limits: {
+        const auto value = as_signed(m[in.b]), low = as_signed(m[in.c]), high = as_signed(m[in.c + 1]);
+        if (value >= low && value <= high) {
+          m[in.a] = m[in.b] - m[in.c];
+          continue;
+        }
+        stop(FaultKind::index, value, low, high);
         break;
       }
       case Op::check_range: {

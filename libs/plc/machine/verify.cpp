@@ -47,7 +47,7 @@ class Verifier {
   std::string routine(std::size_t number) const {
     const auto& r = code_.routines[number];
     const auto name = "routine " + std::to_string(number);
-    if (r.entry >= r.end || r.end > code_.code.size() || r.frame > code_.initial.size())
+    if (r.entry >= r.end || r.end > code_.code.size() || r.frame > most_cells)
       return name + " is outside the code";
     // What follows the last instruction is another routine's.
     const auto last = code_.code[r.end - 1].op;
@@ -122,6 +122,8 @@ class Verifier {
       case Op::load_at:
       case Op::save_at:
         return in.c >= 0;
+      case Op::check_limits:
+        return static_cast<std::uint32_t>(in.c) + 1 < r.frame;
       case Op::address:
         return in.b >= 0 && static_cast<std::uint32_t>(in.b) < r.frame;
       case Op::string_make:

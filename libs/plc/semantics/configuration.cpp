@@ -106,6 +106,7 @@ void Unit::declare_instances() {
     }
     used.insert(declaration.type);
     if (translated(declaration.type, declaration.type_at) == nullptr) continue;
+    if (declaration.retain) refuse_retention(pou->type, declaration.text, declaration.at);
     Variable variable;
     variable.name = declaration.name;
     variable.text = declaration.text;

@@ -67,7 +67,7 @@ std::vector<CrossReference> cross_reference(const Unit& unit) {
   for (const auto& variable : unit.globals) declare(variable, "");
   for (const auto* pou : unit.order)
     if (!unit.is_library(pou->declaration->at) && pou->declaration->kind != PouKind::test)
-      for (const auto& variable : pou->variables) declare(variable, pou->declaration->text + ".");
+      for (const auto& variable : pou->variables) declare(variable, title_of(*pou) + ".");
   std::map<std::tuple<std::size_t, int, int>, CrossReference> registers;
   for (const auto& reference : unit.references) {
     std::string name;

@@ -12,6 +12,11 @@
 
 namespace trunnion::st {
 
+/// Whether a call gives or takes it.
+bool is_parameter(const Variable& variable, const Pou& pou);
+/// Whether it is a register.
+bool is_in_image(const Place& place);
+
 class Lowering {
  public:
   /// `pou` may be nullptr for constant expressions.
@@ -25,6 +30,9 @@ class Lowering {
   /// The value as one of the type, or an error at `at`. `what` begins the message: "the value".
   Value converted(Value value, const Type& to, Position at);
   Emitter& emitter() { return emit_; }
+  /// Of a method of an interface: calls `method` when its `self` is of the block with this number.
+  void dispatch(const Pou& method, std::uint64_t number);
+  void end_dispatch();
   /// Instructions that give variables their initial values at each call.
   void initialize(const Variable& variable);
 
@@ -37,7 +45,16 @@ class Lowering {
   Value access(const Expression& e);
   Value member(const Expression& e);
   Value part(const Expression& e);
+  Value dereference(const Expression& e);
   Value index(const Expression& e);
+  Value index_number(const Expression& e);
+  Value open_element(const Expression& e, Value value);
+  void add_limits(const Value& array, std::vector<std::int32_t>& cells);
+  /// REF(variable); nothing for other calls.
+  std::optional<Value> reference_of(const Expression& e);
+  std::string passing(const Expression& e) const;
+  std::optional<Value> array_bound(const Expression& e, const Type* expected);
+  Value open_limit(std::int32_t limit, const Type* expected, Position at);
   Value unary(const Expression& e, const Type* expected);
   Value inverted(const Value& value, Position at);
   Value binary(const Expression& e, const Type* expected);
@@ -51,6 +68,11 @@ class Lowering {
   Value power(Value left, Value right, const Type* expected, Position at);
   Value operation(Op op, const Type* type, const Value& left, const Value& right, bool narrow);
   bool settle(Value& left, Value& right, const std::string& op, Position at);
+  Value as_number(const Value& value, Position at);
+  Value as_bits(const Value& value, Position at);
+  void mix(const std::string& op, Value& left, Value& right, Position at);
+  Value converted_to_interface(const Value& value, const Type& to, Position at);
+  std::optional<Value> converted_freely(const Value& value, const Type& to, Position at);
   Value failed(Position at, const std::string& text);
   Value error() const { return {elementary(Kind::error), false, 0, false, 0, "", {}, nullptr}; }
   Value temporary(const Type* type);
@@ -60,6 +82,16 @@ class Lowering {
   void initial_at(std::size_t jump, const Value& value);
   void fill(std::int32_t first, const std::vector<std::uint64_t>& cells);
   Value variable_value(Variable& variable);
+  /// The function block whose body or method this is; nullptr elsewhere.
+  Pou* instance() const;
+  /// The block that declares this body or method.
+  const Pou* declaring() const;
+  /// The address of the running instance.
+  Place self() const;
+  /// The variable of the unit, in a method also of the instance; nullptr when there is none.
+  Variable* own_variable(const Expression& name) const;
+  std::string hidden(const Variable& variable) const;
+  std::string scope_problem(const Expression& name) const;
 
   // places
   std::int32_t cell(const Value& value, const Type& type);
@@ -87,10 +119,24 @@ class Lowering {
   const Type* instance_type(const Expression& e) const;
   bool has_own_control(const Expression& callee) const;
   Value call_function(Pou& function, const Expression& e);
+  struct MethodCall {
+    Pou* instance = nullptr;
+    MethodDeclaration method;
+    const Expression* of = nullptr;  ///< the variable that is the instance; none: the running one
+    Pou* prototype = nullptr;        ///< of the interface that `of` is a value of
+  };
+  MethodDeclaration own_method(const Expression& callee) const;
+  std::optional<MethodCall> called_method(const Expression& callee) const;
+  bool is_accessible(const MethodCall& called) const;
+  Value call_method(const MethodCall& called, const Expression& e);
+  Value call_interface(const MethodCall& called, const Expression& e);
+  void require_instance(std::int32_t value);
+  void copy_cells(std::int32_t to, std::int32_t from, std::size_t count);
+  Value call_with_frame(const Pou& method, std::int32_t self, const Expression& e);
   void call_block(const Value& instance, const Expression& e);
   void call_program(Pou& program, const Expression& e);
   bool bind(const Pou& pou, const Expression& e, bool is_block, std::vector<const Argument*>& bound);
-  std::int32_t reference(const Argument& argument, const Variable& parameter);
+  std::vector<std::int32_t> reference(const Argument& argument, const Variable& parameter);
   void give_output(const Argument& argument, const Value& output);
   std::optional<Value> standard_function(const Expression& e, const Type* expected);
   std::optional<Value> ladder_function(const Expression& e);
@@ -108,6 +154,7 @@ class Lowering {
   Value extreme_literal(const std::string& name, std::vector<Value> values, Position at);
   Value shift(const std::string& name, const std::vector<Value>& values, const Expression& e);
   Value string_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
+  Value plc_time(Kind kind);
   Value math_function(MathFunction function, const std::vector<Value>& values, const Expression& e,
                       const Type* expected);
   Value test_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
@@ -117,6 +164,8 @@ class Lowering {
   // statements
   void statement(const Statement& s);
   void assign(const Statement& s);
+  void attempt(const Value& target, const Value& value, Position at);
+  void attempt_reference(const Value& target, const Value& value, Position at);
   void if_statement(const Statement& s);
   void case_statement(const Statement& s);
   void case_label(const CaseLabel& label, const Value& selector, std::vector<std::size_t>& jumps,

@@ -10,12 +10,6 @@
 namespace trunnion::st {
 namespace {
 
-bool is_parameter(const Variable& variable, const Pou& pou) {
-  return &variable != pou.result &&
-         (variable.section == VariableSection::input || variable.section == VariableSection::output ||
-          variable.section == VariableSection::in_out);
-}
-
 const char* section_name(VariableSection section) {
   return section == VariableSection::input    ? "an input"
          : section == VariableSection::output ? "an output"
@@ -32,22 +26,30 @@ bool declares_control(const PouDeclaration& pou) {
 
 }  // namespace
 
+bool is_parameter(const Variable& variable, const Pou& pou) {
+  return &variable != pou.result &&
+         (variable.section == VariableSection::input || variable.section == VariableSection::output ||
+          variable.section == VariableSection::in_out);
+}
+
 /// Of an instance before its value is known; nullptr when there is none.
 const Type* Lowering::instance_type(const Expression& e) const {
   if (e.kind == Expression::Kind::name) {
-    const Variable* variable = unit_.find_global(e.name);
-    if (pou_ != nullptr)
-      if (const auto found = pou_->names.find(e.name); found != pou_->names.end()) variable = found->second;
+    const Variable* variable = own_variable(e);
+    if (variable == nullptr && e.scope == NameScope::any) variable = unit_.find_global(e.name);
     if (variable == nullptr && in_test()) variable = unit_.find_instance(e.name);
     if (variable != nullptr) return variable->type;
+    if (e.name == "THIS" && instance() != nullptr) return &instance()->type;
     // A test names the variables of a program by the program.
     const auto* pou = in_test() ? unit_.find_pou(e.name) : nullptr;
     const bool is_program = pou != nullptr && pou->declaration->kind == PouKind::program;
     return is_program && unit_.translated(e.name, e.at) != nullptr ? &pou->type : nullptr;
   }
-  if (e.kind != Expression::Kind::index && e.kind != Expression::Kind::member) return nullptr;
+  const bool follows = e.kind == Expression::Kind::dereference;
+  if (e.kind != Expression::Kind::index && e.kind != Expression::Kind::member && !follows) return nullptr;
   const auto* owner = instance_type(*e.parts[0]);
   if (owner == nullptr) return nullptr;
+  if (follows) return owner->kind == Kind::reference ? owner->element : nullptr;
   if (e.kind == Expression::Kind::index) return owner->kind == Kind::array ? owner->element : nullptr;
   if (owner->kind == Kind::structure) {
     const auto* field = owner->field(e.name);
@@ -61,6 +63,7 @@ const Type* Lowering::instance_type(const Expression& e) const {
 
 /// EN and ENO of units that declare them are parameters like others.
 bool Lowering::has_own_control(const Expression& callee) const {
+  if (const auto called = called_method(callee)) return declares_control(*called->method.declaration);
   if (const auto* type = instance_type(callee); type != nullptr && type->kind == Kind::block)
     return declares_control(*type->block->pou->declaration);
   if (callee.kind != Expression::Kind::name) return false;
@@ -107,13 +110,12 @@ Value Lowering::plain_call(const Expression& e, const Type* expected) {
   const auto& callee = *e.parts[0];
   Value none;
   none.type = elementary(Kind::none);
-  const bool plain = callee.kind == Expression::Kind::name;
+  if (const auto called = called_method(callee)) return call_method(*called, e);
+  const bool plain = callee.kind == Expression::Kind::name && callee.scope == NameScope::any;
   // A variable hides a function only when it can be called itself.
   const auto instance_named = [&] {
-    const auto* variable = unit_.find_global(callee.name);
-    if (pou_ != nullptr)
-      if (const auto found = pou_->names.find(callee.name); found != pou_->names.end())
-        variable = found->second;
+    const Variable* variable = own_variable(callee);
+    if (variable == nullptr) variable = unit_.find_global(callee.name);
     if (variable == nullptr && in_test()) variable = unit_.find_instance(callee.name);
     if (variable == nullptr) return false;
     return variable->type->kind == Kind::block ||
@@ -138,6 +140,8 @@ Value Lowering::plain_call(const Expression& e, const Type* expected) {
                                        callee.text + "; and call name(...)");
       }
     }
+    if (auto value = reference_of(e)) return *value;
+    if (auto value = array_bound(e, expected)) return *value;
     if (auto value = ladder_function(e)) return *value;
     if (auto value = standard_function(e, expected)) return *value;
     return failed(callee.at, "there is no function '" + callee.text + "'");
@@ -149,6 +153,12 @@ Value Lowering::plain_call(const Expression& e, const Type* expected) {
   note(callee, instance, access);
   if (instance.type->kind != Kind::block)
     return failed(callee.at, "'" + callee.text + "' is " + instance.type->name + " and cannot be called");
+  if (instance.type->block->pou->declaration->is_class)
+    return failed(callee.at, "'" + callee.text + "' is an instance of a class: call one of its methods");
+  const auto& block = *instance.type->block->pou;
+  if (block.state == Pou::State::in_progress &&
+      unit_.translated(block.declaration->name, callee.at) == nullptr)
+    return error();
   call_block(instance, e);
   return none;
 }
@@ -208,27 +218,29 @@ bool Lowering::bind(const Pou& pou, const Expression& e, bool is_block, std::vec
   return good;
 }
 
-/// The address of the variable that VAR_IN_OUT refers to.
-std::int32_t Lowering::reference(const Argument& argument, const Variable& parameter) {
+/// The cells of VAR_IN_OUT: the address of the variable that it refers to, of ARRAY[*] also the limits.
+std::vector<std::int32_t> Lowering::reference(const Argument& argument, const Variable& parameter) {
   const auto value = target(*argument.value);
-  if (value.is_error()) return 0;
+  if (value.is_error()) return {0};
   auto access = writing();
   access.reads = true;
   note(*argument.value, value, access);
   const auto at = argument.value->at;
-  if (!check_writable(value, at)) return 0;
+  if (!check_writable(value, at)) return {0};
   if (value.place.bit >= 0 || value.place.form != 0) {
     unit_.diagnostics().error(at, "a part of a register cannot be VAR_IN_OUT '" + parameter.text +
                                       "'; copy it to a variable and back");
-    return 0;
+    return {0};
   }
-  if (!same_type(*value.type, *parameter.type) || value.type->ranged != parameter.type->ranged) {
+  if (!fits_parameter(*value.type, *parameter.type)) {
     unit_.diagnostics().error(
         at, "VAR_IN_OUT '" + parameter.text + "' is " + parameter.type->name + ", not " + value.type->name);
-    return 0;
+    return {0};
   }
   mark_written(value);
-  return address(value.place);
+  std::vector<std::int32_t> cells{address(value.place)};
+  if (parameter.type->open) add_limits(value, cells);
+  return cells;
 }
 
 /// To the variable behind =>, inverted with NOT before the output's name.
@@ -248,6 +260,7 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
     const Variable* parameter;
     std::int32_t cell;
     Value value;
+    std::vector<std::int32_t> references{};
   };
   // All arguments first: an argument may call the same function.
   std::vector<Step> steps;
@@ -266,13 +279,13 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
     }
     if (variable.section == VariableSection::output) continue;
     if (variable.section == VariableSection::in_out) {
-      steps.push_back({&variable, reference(*argument, variable), {}});
+      steps.push_back({&variable, 0, {}, reference(*argument, variable)});
       continue;
     }
     const auto at = argument->value->at;
     auto value = converted(expression(*argument->value, variable.type), *variable.type, at);
     if (value.is_error()) continue;
-    if (is_elementary(variable.type->kind)) {
+    if (is_one_cell(variable.type->kind)) {
       const auto source = cell(value, *variable.type);
       check_range(*variable.type, value, source);
       const auto keep = emit_.temporary();
@@ -290,7 +303,8 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
     parameter.type = step.parameter->type;
     parameter.place = {Place::Base::absolute, target, 0, -1, 0, 0, true, ""};
     if (step.parameter->section == VariableSection::in_out) {
-      emit_.add(Op::save, step.cell, target);
+      for (std::size_t k = 0; k < step.references.size(); ++k)
+        emit_.add(Op::save, step.references[k], target + static_cast<std::int32_t>(k));
     } else if (step.cell < 0) {
       Value initial;
       initial.type = step.parameter->type;
@@ -302,11 +316,11 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
                        0,
                        false,
                        ""};
-      if (is_elementary(initial.type->kind))
+      if (is_one_cell(initial.type->kind))
         emit_.add(Op::save, cell(initial), target);
       else
         copy(parameter, initial);
-    } else if (is_elementary(step.parameter->type->kind)) {
+    } else if (is_one_cell(step.parameter->type->kind)) {
       emit_.add(Op::save, step.cell, target);
     } else {
       copy(parameter, step.value);
@@ -333,7 +347,7 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
   Value stored;
   stored.type = result.type;
   stored.place = {Place::Base::absolute, base + function.result->place.offset, 0, -1, 0, 0, false, ""};
-  if (is_elementary(result.type->kind))
+  if (is_one_cell(result.type->kind))
     emit_.add(Op::load, result.place.offset, stored.place.offset);
   else
     copy(result, stored);
@@ -360,8 +374,10 @@ void Lowering::call_block(const Value& instance, const Expression& e) {
     const auto* argument = bound[i++];
     if (argument == nullptr || variable.section == VariableSection::output) continue;
     if (variable.section == VariableSection::in_out) {
-      const auto source = reference(*argument, variable);
-      store_cell(place_of(variable).place, *elementary(Kind::lint), source);
+      const auto sources = reference(*argument, variable);
+      for (std::size_t k = 0; k < sources.size(); ++k)
+        store_cell(moved(place_of(variable).place, static_cast<std::int32_t>(k)), *elementary(Kind::lint),
+                   sources[k]);
       continue;
     }
     const auto at = argument->value->at;

@@ -70,8 +70,9 @@ Value Lowering::converted_to(const Value& value, const Type& to, bool truncate, 
     return failed(at, "TRUNC is for REAL and LREAL, not for " + value.type->name);
   if (truncate && !is_integer(to.kind)) return failed(at, "TRUNC gives an integer, not " + to.name);
   const auto is_string_of_bits = [](Kind kind) { return is_bits(kind) && kind != Kind::boolean; };
-  const bool transfers =
-      (is_real(from) && is_string_of_bits(to.kind)) || (is_string_of_bits(from) && is_real(to.kind));
+  const bool codesys = unit_.is_codesys(at);
+  const bool transfers = !codesys && ((is_real(from) && is_string_of_bits(to.kind)) ||
+                                      (is_string_of_bits(from) && is_real(to.kind)));
   if (transfers && bits(from) != bits(to.kind))
     return failed(at, "there is no conversion from " + value.type->name + " to " + to.name +
                           "; REAL and DWORD, LREAL and LWORD exchange their bits, integers their value");
@@ -119,6 +120,8 @@ Value Lowering::converted_to(const Value& value, const Type& to, bool truncate, 
   auto result = temporary(type);
   const auto target = result.place.offset;
   const auto scale = [&](Kind duration) {
+    if (codesys && (duration == Kind::date || duration == Kind::dt)) return 1000 * millisecond;
+    if (codesys && duration == Kind::tod) return millisecond;
     return duration == Kind::ltime || is_date(duration) ? std::int64_t{1} : millisecond;
   };
   if (to.kind == Kind::boolean) {
@@ -167,11 +170,13 @@ Value Lowering::converted_to(const Value& value, const Type& to, bool truncate, 
       emit_.add(Op::divide, target, source, divisor);
       emit_.add(Op::narrow, target, target, 0, cell_form(to.kind));
     }
-  } else if (whole(from) && is_duration(to.kind)) {
+  } else if (whole(from) && (is_duration(to.kind) || (codesys && is_date(to.kind)))) {
     const auto factor = emit_.temporary();
     emit_.constant(factor, static_cast<std::uint64_t>(scale(to.kind)));
     emit_.add(Op::multiply, target, source, factor);
-  } else if (is_duration(from) && is_duration(to.kind)) {
+  } else if ((is_duration(from) && is_duration(to.kind)) || (from == Kind::date && to.kind == Kind::dt) ||
+             (codesys && (is_duration(from) || from == Kind::tod) &&
+              (is_duration(to.kind) || to.kind == Kind::tod))) {
     emit_.add(Op::move, target, source);
   } else if (from == Kind::dt && (to.kind == Kind::date || to.kind == Kind::tod)) {
     const auto day = emit_.temporary(), rest = emit_.temporary();

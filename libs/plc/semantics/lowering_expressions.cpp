@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <utility>
 
 #include "plc/machine/arithmetic.hpp"
 #include "plc/machine/strings.hpp"
@@ -17,7 +18,9 @@ bool is_number(Kind kind) {
 
 /// Whether evaluating it may stop the program or change a variable, so that it must not be evaluated in vain.
 bool has_effect(const Expression& e) {
-  if (e.kind == Expression::Kind::call || e.kind == Expression::Kind::index) return true;
+  if (e.kind == Expression::Kind::call || e.kind == Expression::Kind::index ||
+      e.kind == Expression::Kind::dereference)
+    return true;
   if (e.kind == Expression::Kind::binary && e.name == "/") return true;
   for (const auto& part : e.parts)
     if (part && has_effect(*part)) return true;
@@ -77,6 +80,8 @@ Value Lowering::expression(const Expression& e, const Type* expected) {
     case Expression::Kind::part:
     case Expression::Kind::index:
       return access(e);
+    case Expression::Kind::dereference:
+      return dereference(e);
     case Expression::Kind::unary:
       return unary(e, expected);
     case Expression::Kind::binary:
@@ -93,14 +98,16 @@ Value Lowering::expression(const Expression& e, const Type* expected) {
 }
 
 Value Lowering::inverted(const Value& value, Position at) {
-  const auto kind = value.type->kind;
-  if (kind == Kind::integer_literal) return failed(at, "NOT needs a typed literal, as WORD#16#FF");
+  if (value.type->kind == Kind::integer_literal)
+    return failed(at, "NOT needs a typed literal, as WORD#16#FF");
+  const auto given = as_bits(value, at);
+  const auto kind = given.type->kind;
   if (!is_bits(kind)) return failed(at, "NOT is for BOOL and bit strings, not for " + value.type->name);
   const auto* type = elementary(kind);
-  if (value.is_constant)
+  if (given.is_constant)
     return constant_integer(type, static_cast<std::int64_t>(
                                       narrowed(~static_cast<std::uint64_t>(value.integer), cell_form(kind))));
-  const auto source = cell(value);
+  const auto source = cell(given);
   auto result = temporary(type);
   emit_.add(kind == Kind::boolean ? Op::not_ : Op::invert, result.place.offset, source);
   if (kind != Kind::boolean && kind != Kind::lword)
@@ -111,8 +118,10 @@ Value Lowering::inverted(const Value& value, Position at) {
 Value Lowering::unary(const Expression& e, const Type* expected) {
   auto value = expression(*e.parts[0], expected);
   if (value.is_error()) return value;
-  const auto kind = value.type->kind;
   if (e.name == "NOT") return inverted(value, e.at);
+  if (!value.is_constant) value = as_number(value, e.at);
+  if (unit_.is_codesys(e.at) && value.type->kind == Kind::udint) value.type = elementary(Kind::lint);
+  const auto kind = value.type->kind;
   if (!is_number(kind) && !is_duration(kind))
     return failed(e.at, "'-' is for numbers and times, not for " + value.type->name);
   if (value.is_constant) {
@@ -177,6 +186,8 @@ Value Lowering::logic(const Expression& e, const Type* expected) {
   }
   auto right = expression(*e.parts[1], expected);
   if (left.is_error() || right.is_error()) return error();
+  left = as_bits(left, e.at);
+  right = as_bits(right, e.at);
   if (!settle(left, right, e.name, e.at)) return error();
   const auto kind = left.type->kind;
   if (!is_bits(kind))
@@ -240,6 +251,7 @@ Value Lowering::operation(Op op, const Type* type, const Value& left, const Valu
 }
 
 Value Lowering::arithmetic(const std::string& op, Value left, Value right, Position at) {
+  mix(op, left, right, at);
   const auto timed = [](const Value& v) { return is_duration(v.type->kind) || is_date(v.type->kind); };
   if (timed(left) || timed(right)) return time_arithmetic(op, left, right, at);
   const auto bit_string = [&](const Value& v) { return is_bits(v.type->kind); };
@@ -379,20 +391,26 @@ Value Lowering::time_arithmetic(const std::string& op, const Value& left, const 
 
 Value Lowering::comparison(const std::string& op, Value left, Value right, Position at) {
   const auto* boolean = elementary(Kind::boolean);
+  mix(op, left, right, at);
   if (left.type->kind == Kind::string && right.type->kind == Kind::string &&
       left.type->wide == right.type->wide)
     return string_comparison(op, left, right);
-  const bool elementary_values = (is_elementary(left.type->kind) || left.is_literal()) &&
-                                 (is_elementary(right.type->kind) || right.is_literal());
+  if (left.type->kind == Kind::null_ && is_reference(right.type->kind)) std::swap(left, right);
+  if (right.type->kind == Kind::null_ && is_reference(left.type->kind) && left.type->kind != Kind::null_)
+    right = converted(right, *left.type, at);
+  const bool elementary_values = (is_one_cell(left.type->kind) || left.is_literal()) &&
+                                 (is_one_cell(right.type->kind) || right.is_literal());
   if (!elementary_values)
     return failed(
         at, "'" + op + "' is for elementary values, not for " +
-                (is_elementary(left.type->kind) || left.is_literal() ? right.type->name : left.type->name));
+                (is_one_cell(left.type->kind) || left.is_literal() ? right.type->name : left.type->name));
   if (!settle(left, right, op, at)) return error();
   if (left.is_constant && right.is_constant) return folded_comparison(op, left, right);
   const auto* type = common_type(*left.type, *right.type);
   if (type->kind == Kind::enumeration && op != "=" && op != "<>")
     return failed(at, "enumerated values are compared by = and <> only");
+  if (is_reference(type->kind) && op != "=" && op != "<>")
+    return failed(at, "references are compared by = and <> only");
   const bool swap = op == ">" || op == ">=";
   const auto& a = swap ? right : left;
   const auto& b = swap ? left : right;

@@ -109,6 +109,8 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
   const auto* row = find_function(e.parts[0]->name);
   if (row == nullptr) {
     if (auto value = conversion(e, e.parts[0]->name)) return value;
+    if (e.parts[0]->name == "TIME" && unit_.is_codesys(e.at) && e.arguments.empty())
+      return plc_time(Kind::time);
     row = typed_function(e.parts[0]->name, operands);
     if (row == nullptr) return std::nullopt;
   }
@@ -130,6 +132,11 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
   }
   for (const auto& value : values)
     if (value.is_error()) return error();
+  const auto group = row->group;
+  const bool counts = group == FunctionGroup::math || group == FunctionGroup::absolute ||
+                      group == FunctionGroup::selection || group == FunctionGroup::string;
+  for (auto& value : values)
+    if (counts && !value.is_literal()) value = as_number(value, e.at);
   for (const auto& value : values)
     if (value.type->kind == Kind::none) return failed(e.at, "the function has no result");
   emit_.place(e.at);
@@ -221,18 +228,21 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
     case FunctionGroup::move:
     case FunctionGroup::ladder:
       return values[0];
-    case FunctionGroup::clock: {
-      auto result = temporary(elementary(Kind::ltime));
-      const auto offset = emit_.temporary();
-      emit_.add(Op::now, result.place.offset);
-      emit_.add(Op::load, offset, static_cast<std::int32_t>(Unit::clock_offset_cell));
-      emit_.add(Op::add, result.place.offset, result.place.offset, offset);
-      return result;
-    }
+    case FunctionGroup::clock:
+      return plc_time(Kind::ltime);
     case FunctionGroup::test:
       return test_function(name, values, e);
   }
   return error();
+}
+
+Value Lowering::plc_time(Kind kind) {
+  auto result = temporary(elementary(kind));
+  const auto offset = emit_.temporary();
+  emit_.add(Op::now, result.place.offset);
+  emit_.add(Op::load, offset, static_cast<std::int32_t>(Unit::clock_offset_cell));
+  emit_.add(Op::add, result.place.offset, result.place.offset, offset);
+  return result;
 }
 
 Value Lowering::math_function(MathFunction function, const std::vector<Value>& values, const Expression& e,
@@ -296,15 +306,17 @@ Value Lowering::validity(bool digits, const Value& value, const Expression& e) {
 }
 
 Value Lowering::shift(const std::string& name, const std::vector<Value>& values, const Expression& e) {
-  const auto kind = values[0].type->kind;
-  if (kind == Kind::integer_literal) return failed(e.at, name + " needs a typed literal, as WORD#16#FF");
+  if (values[0].type->kind == Kind::integer_literal)
+    return failed(e.at, name + " needs a typed literal, as WORD#16#FF");
+  const auto bit_string = as_bits(values[0], e.at), places = as_number(values[1], e.at);
+  const auto kind = bit_string.type->kind;
   if (!is_bits(kind)) return failed(e.at, name + " is for bit strings, not for " + values[0].type->name);
-  const auto count_kind = values[1].type->kind;
+  const auto count_kind = places.type->kind;
   if (!is_integer(count_kind) && count_kind != Kind::integer_literal)
     return failed(e.at, "the number of places is an integer, not " + values[1].type->name);
-  const auto source = cell(values[0]);
-  const auto count = cell(converted(
-      values[1], count_kind == Kind::integer_literal ? *elementary(Kind::uint_) : *values[1].type, e.at));
+  const auto source = cell(bit_string);
+  const auto count = cell(
+      converted(places, count_kind == Kind::integer_literal ? *elementary(Kind::uint_) : *places.type, e.at));
   auto result = temporary(elementary(kind));
   const Op op = name == "SHL"   ? Op::shift_left
                 : name == "SHR" ? Op::shift_right

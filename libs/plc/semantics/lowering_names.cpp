@@ -74,8 +74,18 @@ Value Lowering::variable_value(Variable& variable) {
     return value;
   }
   value.place = variable.place;
-  if (variable.section == VariableSection::in_out && variable.place.base == Place::Base::frame)
-    value.place = {Place::Base::indirect, 0, variable.place.offset, -1, 0, 0, true, ""};
+  if (variable.place.base != Place::Base::frame) return value;
+  const bool of_instance = pou_ != nullptr && pou_->is_method() && variable.declared_in != nullptr;
+  auto reference = variable.place.offset;
+  if (of_instance) value.place.base = Place::Base::indirect, value.place.cell = self().cell;
+  if (variable.section != VariableSection::in_out) return value;
+  if (of_instance) {
+    reference = emit_.temporary(static_cast<std::uint32_t>(variable.initial.size()));
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(variable.initial.size()); ++i)
+      emit_.add(Op::load_at, reference + i, self().cell, variable.place.offset + i);
+  }
+  if (variable.type->open) value.limits = reference + 1;
+  value.place = {Place::Base::indirect, 0, reference, -1, 0, 0, true, ""};
   return value;
 }
 
@@ -85,9 +95,17 @@ Value Lowering::name(const Expression& e, const Type* expected) {
     note_read(e, value);
     return value;
   };
-  if (pou_ != nullptr)
-    if (const auto found = pou_->names.find(e.name); found != pou_->names.end())
-      return noted(variable_value(*found->second));
+  if (auto* own = own_variable(e)) {
+    const auto refusal = hidden(*own);
+    return refusal.empty() ? noted(variable_value(*own)) : failed(e.at, refusal);
+  }
+  if (e.scope != NameScope::any) return failed(e.at, scope_problem(e));
+  if (e.name == "THIS" && instance() != nullptr) {
+    Value value;
+    value.type = &instance()->type;
+    value.place = self();
+    return value;
+  }
   if (auto* global = unit_.find_global(e.name)) return noted(variable_value(*global));
   if (expected != nullptr && expected->kind == Kind::enumeration)
     if (const auto* enumerator = expected->enumerator(e.name))
@@ -97,6 +115,8 @@ Value Lowering::name(const Expression& e, const Type* expected) {
     return constant_integer(type, enumerator->value);
   if (const auto found = unit_.registers().find(e.name); found != unit_.registers().end())
     return noted(unit_.register_value(found->second, nullptr, e.at));
+  if (e.name == "NULL")
+    return constant_integer(elementary(Kind::null_), static_cast<std::int64_t>(null_reference));
   if (auto* instance = in_test() ? unit_.find_instance(e.name) : nullptr) return variable_value(*instance);
   if (auto* pou = unit_.find_pou(e.name)) {
     if (pou->declaration->kind == PouKind::program && in_test() && !unit_.is_configured(*pou)) {
@@ -116,7 +136,7 @@ Value Lowering::name(const Expression& e, const Type* expected) {
 
 Value Lowering::member(const Expression& e) {
   const auto& owner = *e.parts[0];
-  if (owner.kind == Expression::Kind::name && (pou_ == nullptr || !pou_->names.contains(owner.name)))
+  if (owner.kind == Expression::Kind::name && own_variable(owner) == nullptr)
     if (const auto* type = unit_.find_global(owner.name) == nullptr ? unit_.named_type(owner.name) : nullptr;
         type != nullptr && type->kind == Kind::enumeration)
       if (const auto* enumerator = type->enumerator(e.name)) return constant_integer(type, enumerator->value);
@@ -136,8 +156,9 @@ Value Lowering::member(const Expression& e) {
     const bool is_program = pou.declaration->kind == PouKind::program;
     if (found == pou.names.end()) return failed(e.at, value.type->name + " has no variable '" + e.text + "'");
     const auto& variable = *found->second;
+    const bool is_open = variable.section == VariableSection::local && variable.access == Access::public_;
     const bool is_public =
-        variable.section == VariableSection::input || variable.section == VariableSection::output;
+        variable.section == VariableSection::input || variable.section == VariableSection::output || is_open;
     if (!is_public && !(is_program && variable.place.base != Place::Base::none))
       return failed(e.at, "'" + e.text + "' is inside " + value.type->name +
                               "; only its inputs and outputs are accessible");
@@ -148,10 +169,14 @@ Value Lowering::member(const Expression& e) {
       return value;
     }
     value.place = moved(value.place, variable.place.offset);
-    value.place.writable = variable.section == VariableSection::input || is_program;
-    value.place.refusal = "output of a function block is set by the block alone";
+    value.place.writable =
+        variable.section == VariableSection::input || is_program || (is_open && variable.place.writable);
+    value.place.refusal =
+        is_open ? variable.place.refusal : "output of a function block is set by the block alone";
     return value;
   }
+  if (value.type->kind == Kind::interface_)
+    return failed(e.at, "the interface '" + value.type->name + "' has no method '" + e.text + "'");
   return failed(
       e.at, value.type->name + " has no members; '." + e.text + "' needs a structure or a function block");
 }
@@ -161,9 +186,14 @@ Value Lowering::part(const Expression& e) {
   auto value = expression(*e.parts[0]);
   if (value.is_error()) return value;
   if (value.is_constant) return failed(e.at, "a part of a constant is not accessible");
-  const int whole = bits(value.type->kind);
-  if (!is_bits(value.type->kind) || whole < 8)
+  const auto kind = value.type->kind;
+  const int whole = bits(kind);
+  const bool of_bits = is_bits(kind) && whole >= 8;
+  const bool of_integer = is_integer(kind) && unit_.is_codesys(e.at);
+  if (!of_bits && !of_integer)
     return failed(e.at, "a part is of BYTE, WORD, DWORD or LWORD, not of " + value.type->name);
+  // A bit that is written may change the sign.
+  if (of_integer && is_signed(kind) && value.place.form == 0) value.place.form = cell_form(kind);
   const char size = e.name.empty() ? '?' : e.name[0];
   const bool plain_number = size >= '0' && size <= '9';
   const int width = size == 'X' || plain_number ? 1
@@ -186,71 +216,6 @@ Value Lowering::part(const Expression& e) {
                                         : Kind::dword);
   value.place.bit = std::max(value.place.bit, 0) + number * width;
   value.place.width = width;
-  return value;
-}
-
-Value Lowering::index(const Expression& e) {
-  auto value = expression(*e.parts[0]);
-  if (value.is_error()) return value;
-  if (value.type->kind != Kind::array)
-    return failed(e.at, value.type->name + " is no array and has no index");
-  const auto& type = *value.type;
-  if (e.parts.size() - 1 != type.dimensions.size())
-    return failed(e.at, "the array has " + std::to_string(type.dimensions.size()) +
-                            (type.dimensions.size() == 1 ? " dimension, not " : " dimensions, not ") +
-                            std::to_string(e.parts.size() - 1));
-  std::int64_t stride = type.cells, offset = 0;
-  std::optional<std::int32_t> sum;
-  bool good = true;
-  for (std::size_t i = 0; i < type.dimensions.size(); ++i) {
-    const auto& dimension = type.dimensions[i];
-    stride /= dimension.high - dimension.low + 1;
-    const auto& at = e.parts[i + 1]->at;
-    auto number = expression(*e.parts[i + 1]);
-    if (number.is_error()) {
-      good = false;
-      continue;
-    }
-    if (!is_integer(number.type->kind) && number.type->kind != Kind::integer_literal) {
-      failed(at, "an index is a whole number, not " + number.type->name);
-      good = false;
-      continue;
-    }
-    if (number.is_constant) {
-      if (number.large || number.integer < dimension.low || number.integer > dimension.high) {
-        failed(at, "index " + std::to_string(number.integer) + " is outside " +
-                       std::to_string(dimension.low) + " .. " + std::to_string(dimension.high) +
-                       " of the array");
-        good = false;
-        continue;
-      }
-      offset += (number.integer - dimension.low) * stride;
-      continue;
-    }
-    const auto source = cell(number);
-    const auto scaled = emit_.temporary();
-    emit_.place(at);
-    emit_.add(Op::check_index, scaled, source, unit_.range_entry({dimension.low, dimension.high, stride}));
-    if (!sum)
-      sum = scaled;
-    else
-      emit_.add(Op::add, *sum, *sum, scaled);
-  }
-  if (!good) return error();
-  value.variable = nullptr;
-  value.type = type.element;
-  value.place = moved(value.place, static_cast<std::int32_t>(offset));
-  if (value.place.base == Place::Base::absolute && sum)
-    unit_.use_register(static_cast<std::uint32_t>(value.place.offset - offset), type.cells, false);
-  if (sum) {
-    auto place = value.place;
-    if (place.base == Place::Base::absolute)
-      unit_.use_register(static_cast<std::uint32_t>(place.offset - offset), type.cells, true);
-    const auto start = address(place);
-    const auto result = emit_.temporary();
-    emit_.add(Op::add, result, start, *sum);
-    value.place = {Place::Base::indirect, 0, result, -1, 0, 0, place.writable, place.refusal};
-  }
   return value;
 }
 

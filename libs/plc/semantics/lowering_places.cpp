@@ -60,7 +60,7 @@ Value Lowering::temporary(const Type* type) {
 
 /// A copy of what another part of the expression may change.
 Value Lowering::kept(Value value) {
-  if (value.is_constant || !is_elementary(value.type->kind)) return value;
+  if (value.is_constant || !is_one_cell(value.type->kind)) return value;
   if (value.place.base == Place::Base::frame && emit_.is_temporary(value.place.offset) && value.place.bit < 0)
     return value;
   auto copy = temporary(value.type);
@@ -226,7 +226,7 @@ void Lowering::store(const Value& target, const Value& value) {
   if (target.is_error() || value.is_error()) return;
   mark_written(target);
   const auto& type = *target.type;
-  if (!is_elementary(type.kind)) return copy(target, value);
+  if (!is_one_cell(type.kind)) return copy(target, value);
   const auto source = cell(value, type);
   check_range(type, value, source);
   const auto& place = target.place;
@@ -270,12 +270,18 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
   if (value.is_error() || to.kind == Kind::error) return error();
   const auto from = value.type->kind;
   if (from == Kind::none) return failed(at, "the function has no result");
+  if (value.type->open || to.open)
+    return failed(at, "ARRAY[*] is used by its elements, or passed on as VAR_IN_OUT");
+  if (from == Kind::null_ && to.kind == Kind::reference)
+    return constant_integer(&to, static_cast<std::int64_t>(null_reference));
+  if (to.kind == Kind::interface_) return converted_to_interface(value, to, at);
   if (from == Kind::integer_literal) {
     const bool number = is_integer(to.kind) || (is_bits(to.kind)) || to.kind == Kind::integer_literal;
     if (number) {
       if (to.kind == Kind::boolean && (value.integer < 0 || value.integer > 1))
         return failed(at, "BOOL is TRUE or FALSE, not " + std::to_string(value.integer));
       if (to.kind != Kind::integer_literal && !fits(to, value.integer, value.large)) {
+        if (const auto free = converted_freely(value, to, at)) return *free;
         const auto shown = value.large ? std::to_string(static_cast<std::uint64_t>(value.integer))
                                        : std::to_string(value.integer);
         return failed(at, shown + " is outside " + limits_text(to) + " of " + to.name);
@@ -322,6 +328,7 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
     }
     return value;
   }
+  if (const auto free = converted_freely(value, to, at)) return *free;
   const auto& from_name = value.type->name;
   std::string text = "expected " + to.name + ", found " +
                      (from == Kind::integer_literal || from == Kind::real_literal ? "a number" : from_name);
@@ -341,7 +348,15 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
 void Lowering::initialize(const Variable& variable) {
   if (variable.type->kind == Kind::error || variable.place.base != Place::Base::frame) return;
   const auto mark = emit_.mark();
-  fill(variable.place.offset, variable.initial);
+  if (pou_->is_method() && variable.declared_in != nullptr) {
+    auto place = self();
+    place.offset = variable.place.offset;
+    const auto from = emit_.temporary(), to = address(place);
+    emit_.constant(from, unit_.allocate(variable.initial));
+    emit_.add(Op::copy_block, to, from, static_cast<std::int32_t>(variable.initial.size()));
+  } else {
+    fill(variable.place.offset, variable.initial);
+  }
   emit_.release(mark);
 }
 

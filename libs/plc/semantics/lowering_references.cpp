@@ -31,11 +31,11 @@ std::string text_of(const Place& place) {
   return register_text(at);
 }
 
+}  // namespace
+
 bool is_in_image(const Place& place) {
   return place.base == Place::Base::absolute && static_cast<std::uint32_t>(place.offset) < image_cells;
 }
-
-}  // namespace
 
 Value Lowering::access(const Expression& e) {
   const auto* before = accessed_;
@@ -73,8 +73,7 @@ void Lowering::note(const Expression& e, const Value& value, Reference access) {
       read.reads = true;
       unit_.references.push_back(std::move(read));
     }
-    if (const auto found = pou_->names.find(root.name); found != pou_->names.end())
-      access.variable = found->second;
+    access.variable = own_variable(root);
     if (access.variable == nullptr || access.variable->section == VariableSection::external)
       access.variable = unit_.find_global(root.name);
   } else if (root.kind != Expression::Kind::direct) {

@@ -40,7 +40,7 @@ void Lowering::statement(const Statement& s) {
     case call: {
       const auto value = expression(*s.value);
       if (!value.is_error() && value.type->kind != Kind::none && value.variable == nullptr &&
-          s.value->parts[0]->kind == Expression::Kind::name) {
+          s.value->parts[0]->kind == Expression::Kind::name && !called_method(*s.value->parts[0])) {
         const auto* pou = unit_.find_pou(s.value->parts[0]->name);
         if (pou == nullptr || pou->declaration->kind == PouKind::function)
           unit_.diagnostics().warning(s.at, "the result of '" + s.value->parts[0]->text + "' is not used");
@@ -130,7 +130,10 @@ void Lowering::assign(const Statement& s) {
     return;
   }
   note(*s.target, target, writing());
-  store(target, converted(value, *target.type, s.value->at));
+  if (s.attempts)
+    attempt(target, value, s.value->at);
+  else
+    store(target, converted(value, *target.type, s.value->at));
 }
 
 std::int32_t Lowering::condition(const Expression& e, const char* what) {

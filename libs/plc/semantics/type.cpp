@@ -37,6 +37,7 @@ constexpr std::array type_rows = std::to_array<Row>({
     {Kind::dt, "DATE_AND_TIME", 64, true},
     {Kind::integer_literal, "a whole number", 64, true},
     {Kind::real_literal, "a number with a decimal point", 64, false},
+    {Kind::null_, "NULL", 64, false},
     {Kind::none, "nothing", 64, false},
     {Kind::error, "unknown", 64, false},
 });
@@ -127,6 +128,10 @@ bool is_bits(Kind kind) { return kind <= Kind::lword; }
 bool is_duration(Kind kind) { return kind == Kind::time || kind == Kind::ltime; }
 bool is_date(Kind kind) { return kind == Kind::date || kind == Kind::tod || kind == Kind::dt; }
 bool is_elementary(Kind kind) { return kind < Kind::string || kind == Kind::enumeration; }
+bool is_reference(Kind kind) {
+  return kind == Kind::interface_ || kind == Kind::reference || kind == Kind::null_;
+}
+bool is_one_cell(Kind kind) { return is_elementary(kind) || is_reference(kind); }
 
 int bits(Kind kind) {
   const auto* r = row(kind);
@@ -168,7 +173,7 @@ bool same_type(const Type& a, const Type& b) {
     const auto equal = [](const Dimension& x, const Dimension& y) {
       return x.low == y.low && x.high == y.high;
     };
-    return a.dimensions.size() == b.dimensions.size() &&
+    return a.open == b.open && a.dimensions.size() == b.dimensions.size() &&
            std::equal(a.dimensions.begin(), a.dimensions.end(), b.dimensions.begin(), equal) &&
            same_type(*a.element, *b.element) && a.element->ranged == b.element->ranged &&
            a.element->low == b.element->low && a.element->high == b.element->high;
@@ -181,7 +186,20 @@ bool same_type(const Type& a, const Type& b) {
   if (a.kind == Kind::enumeration)
     return a.name == b.name && std::equal(a.enumerators.begin(), a.enumerators.end(), b.enumerators.begin(),
                                           b.enumerators.end(), named);
+  if (a.kind == Kind::reference && (a.element == nullptr || b.element == nullptr)) return false;
+  if (a.kind == Kind::reference)
+    return same_type(*a.element, *b.element) && a.element->ranged == b.element->ranged &&
+           a.element->low == b.element->low && a.element->high == b.element->high;
+  if (a.kind == Kind::interface_) return a.interface == b.interface;
   return a.kind == Kind::block && a.block == b.block;
+}
+
+bool fits_parameter(const Type& value, const Type& parameter) {
+  if (parameter.open)
+    return value.kind == Kind::array && value.dimensions.size() == parameter.dimensions.size() &&
+           fits_parameter(*value.element, *parameter.element) &&
+           value.element->low == parameter.element->low && value.element->high == parameter.element->high;
+  return same_type(value, parameter) && value.ranged == parameter.ranged;
 }
 
 bool widens(const Type& from, const Type& to) {

@@ -36,6 +36,9 @@ enum class Kind : std::uint8_t {
   array,
   structure,
   block,
+  interface_,       ///< one cell: the place of an instance and which block it is of; see null_reference
+  reference,        ///< one cell: the address of a variable of the type `element`
+  null_,            ///< NULL
   integer_literal,  ///< takes the type of what it meets
   real_literal,
   none,   ///< result of a function without one
@@ -59,7 +62,13 @@ struct Dimension {
   std::int64_t low = 0, high = 0;
 };
 
-struct Block;  // a function block with its interface
+struct Block;  // a function block with its parameters
+struct Interface;
+
+/// NULL: an address that no memory has, so that its use is a fault.
+inline constexpr std::uint64_t null_reference = std::uint64_t{1} << 63;
+/// Bits of the address in a value of an interface; the number of the block is above it.
+inline constexpr int address_bits = 32;
 
 struct Type {
   Kind kind = Kind::error;
@@ -70,10 +79,12 @@ struct Type {
   std::uint32_t length = 0;           ///< of a string, bytes; of WSTRING characters
   bool wide = false;                  ///< WSTRING
   std::vector<Dimension> dimensions;  ///< of an array
+  bool open = false;                  ///< ARRAY[*]: the limits are those of the caller's array
   const Type* element = nullptr;
   std::vector<Field> fields;  ///< of a structure
   std::vector<Enumerator> enumerators;
   const Block* block = nullptr;
+  Interface* interface = nullptr;
   std::vector<std::uint64_t> initial;  ///< the cells of a variable without initial value
 
   const Field* field(std::string_view upper) const;
@@ -85,12 +96,14 @@ const Type* elementary(std::string_view upper);
 const Type* elementary(Kind kind);
 
 bool is_signed(Kind kind);
-bool is_integer(Kind kind);     ///< SINT .. ULINT
-bool is_real(Kind kind);        ///< REAL, LREAL
-bool is_bits(Kind kind);        ///< BOOL .. LWORD
-bool is_duration(Kind kind);    ///< TIME, LTIME
-bool is_date(Kind kind);        ///< DATE, TOD, DT
-bool is_elementary(Kind kind);  ///< one cell
+bool is_integer(Kind kind);   ///< SINT .. ULINT
+bool is_real(Kind kind);      ///< REAL, LREAL
+bool is_bits(Kind kind);      ///< BOOL .. LWORD
+bool is_duration(Kind kind);  ///< TIME, LTIME
+bool is_date(Kind kind);      ///< DATE, TOD, DT
+bool is_elementary(Kind kind);
+bool is_reference(Kind kind);  ///< REF_TO, of an interface, NULL
+bool is_one_cell(Kind kind);   ///< elementary or a reference
 /// Bits of an integer, bit string or enumeration.
 int bits(Kind kind);
 /// `n` of Op::narrow: bits and sign.
@@ -100,6 +113,8 @@ bool fits(const Type& type, std::int64_t value, bool is_large_unsigned = false);
 /// "-128 .. 127"
 std::string limits_text(const Type& type);
 
+/// Whether VAR_IN_OUT of the type `parameter` takes a variable of the type `value`.
+bool fits_parameter(const Type& value, const Type& parameter);
 /// Without regard to subranges.
 bool same_type(const Type& a, const Type& b);
 /// Whether a value converts implicitly, without loss (figure 12 of the standard).

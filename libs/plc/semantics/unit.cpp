@@ -8,6 +8,22 @@
 #include "plc/semantics/lowering.hpp"
 
 namespace trunnion::st {
+namespace {
+
+bool keeps_nothing(const Pou& pou) {
+  return pou.declaration->kind == PouKind::function || pou.declaration->kind == PouKind::method;
+}
+
+const char* kind_text(const Pou& pou) { return pou.is_method() ? "a method" : "a function"; }
+
+}  // namespace
+
+std::string title_of(const Pou& pou) {
+  const auto of = pou.interface != nullptr  ? pou.interface->declaration->text + "."
+                  : pou.instance != nullptr ? pou.instance->declaration->text + "."
+                                            : std::string();
+  return of + pou.declaration->text;
+}
 
 Unit::Unit(const SourceTree& tree, Diagnostics& diagnostics, const RegisterNames& registers,
            std::uint16_t library_files)
@@ -18,16 +34,19 @@ Unit::Unit(const SourceTree& tree, Diagnostics& diagnostics, const RegisterNames
 void Unit::run() {
   register_types();
   declare_pous();
+  declare_interfaces();
   // Types are built when they are needed; they may use constants, so those come first.
   for (const bool constants : {true, false})
     for (const auto& block : tree_.globals)
       if (block.constant == constants) declare_globals(block);
   build_types();
+  declare_prototypes();
   declare_instances();
   for (const auto& declaration : tree_.pous)
     if (const auto found = pous.find(declaration.name);
         found != pous.end() && found->second.declaration == &declaration && !is_library(declaration.at))
       translated(declaration.name, declaration.at);
+  translate_methods();
   add_tasks();
   finish();
 }
@@ -35,7 +54,13 @@ void Unit::run() {
 void Unit::declare_pous() {
   for (const auto& declaration : tree_.pous) {
     auto& pou = pous[declaration.name];
-    if (pou.declaration != nullptr) {
+    const bool replaces = declaration.kind == PouKind::function && !is_library(declaration.at) &&
+                          is_replaceable_function(declaration.name) &&
+                          (pou.declaration == nullptr || is_library(pou.declaration->at));
+    if (replaces) {
+      diagnostics_.warning(declaration.at,
+                           "'" + declaration.text + "' takes the place of the standard function");
+    } else if (pou.declaration != nullptr) {
       const auto& other = *pou.declaration;
       diagnostics_.error(declaration.at,
                          "'" + declaration.text + "' is declared already" +
@@ -45,7 +70,7 @@ void Unit::declare_pous() {
     }
     if (declared_.contains(declaration.name) || elementary(declaration.name) != nullptr)
       diagnostics_.error(declaration.at, "'" + declaration.text + "' is a type already");
-    if (is_standard_function(declaration.name))
+    if (!replaces && is_standard_function(declaration.name))
       diagnostics_.error(declaration.at, "'" + declaration.text + "' is a standard function");
     pou.declaration = &declaration;
     pou.type.kind = Kind::block;
@@ -60,18 +85,25 @@ Pou* Unit::find_pou(const std::string& upper) {
 
 Pou* Unit::translated(const std::string& upper, Position at) {
   auto* pou = find_pou(upper);
-  if (pou == nullptr) return nullptr;
-  if (pou->state == Pou::State::in_progress) {
-    diagnostics_.error(at, "'" + pou->declaration->text +
+  return pou != nullptr && complete(*pou, at) ? pou : nullptr;
+}
+
+bool Unit::complete(Pou& pou, Position at) {
+  if (pou.state == Pou::State::in_progress) {
+    diagnostics_.error(at, "'" + title_of(pou) +
                                "' calls or contains itself; recursion is not permitted (IEC 61131-3, 6.6.1)");
-    return nullptr;
+    return false;
   }
-  if (pou->state == Pou::State::declared) {
-    pou->state = Pou::State::in_progress;
-    translate(*pou);
-    pou->state = Pou::State::done;
+  if (pou.state == Pou::State::declared) {
+    pou.state = Pou::State::in_progress;
+    pou.called_at = at;
+    if (pou.interface != nullptr)
+      translate_dispatcher(pou);
+    else
+      translate(pou);
+    pou.state = Pou::State::done;
   }
-  return pou;
+  return true;
 }
 
 void Unit::declare_globals(const VariableBlock& block) {
@@ -91,6 +123,7 @@ void Unit::declare_globals(const VariableBlock& block) {
     variable.type = type_of(*declaration.type, nullptr);
     global_names_[variable.name] = &variable;
     if (variable.type->kind == Kind::error) continue;
+    if (block.retain) refuse_retention(*variable.type, variable.text, variable.at);
     variable.initial = initial_cells(declaration.initial, *variable.type, nullptr);
     if (block.constant && is_elementary(variable.type->kind) && declaration.initial != nullptr)
       constant(*declaration.initial, *variable.type, nullptr, variable.constant);
@@ -129,14 +162,15 @@ void Unit::each_block(const Type& type, std::uint32_t offset,
   }
 }
 
-void Unit::declare_variable(Pou& pou, const VariableBlock& block, const VariableDeclaration& declaration) {
+void Unit::declare_variable(Pou& pou, const Pou& declared_in, const VariableBlock& block,
+                            const VariableDeclaration& declaration) {
   if (const auto twice = pou.names.find(declaration.name); twice != pou.names.end()) {
     diagnostics_.error(declaration.at, "the variable '" + declaration.text +
                                            "' is declared already in line " +
                                            std::to_string(twice->second->at.line));
     return;
   }
-  const bool is_function = pou.declaration->kind == PouKind::function;
+  const bool is_function = keeps_nothing(pou);
   auto& variable = pou.variables.emplace_back();
   variable.name = declaration.name;
   variable.text = declaration.text;
@@ -144,13 +178,18 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
   variable.section = block.section;
   variable.retain = block.retain;
   variable.is_constant = block.constant;
+  variable.access = block.access;
+  if (pou.declaration->kind == PouKind::function_block) variable.declared_in = &declared_in;
+  in_out_spec_ = block.section == VariableSection::in_out ? declaration.type : nullptr;
   variable.type = type_of(*declaration.type, &pou);
+  in_out_spec_ = nullptr;
   pou.names[variable.name] = &variable;
   if (variable.type->kind == Kind::error) {
     variable.used = true;
     return;
   }
   const auto& type = *variable.type;
+  if (block.retain) refuse_retention(type, variable.text, variable.at);
   if (block.section == VariableSection::external) {
     auto* global = find_global(declaration.name);
     if (global == nullptr) {
@@ -168,11 +207,12 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
     return;
   }
   if (is_function && block.retain)
-    diagnostics_.error(block.at, "a function keeps nothing: RETAIN is not permitted");
+    diagnostics_.error(block.at, std::string(kind_text(pou)) + " keeps nothing: RETAIN is not permitted");
   bool contains_block = type.kind == Kind::block;
   each_block(type, 0, [&](const Pou&, std::uint32_t) { contains_block = true; });
   if (contains_block && is_function && block.section != VariableSection::in_out)
-    diagnostics_.error(declaration.at, "a function keeps nothing, so it cannot contain the function block '" +
+    diagnostics_.error(declaration.at, std::string(kind_text(pou)) +
+                                           " keeps nothing, so it cannot contain the function block '" +
                                            declaration.text + "'; pass it as VAR_IN_OUT");
   if (contains_block &&
       (block.section == VariableSection::temporary || block.section == VariableSection::input))
@@ -183,7 +223,7 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
     diagnostics_.error(declaration.at, "VAR_IN_OUT '" + declaration.text +
                                            "' is the caller's variable and has no initial value");
   variable.initial = block.section == VariableSection::in_out
-                         ? std::vector<std::uint64_t>{0}
+                         ? std::vector<std::uint64_t>(type.open ? 1 + 2 * type.dimensions.size() : 1, 0)
                          : initial_cells(declaration.initial, type, &pou);
   if (block.constant) {
     if (declaration.initial == nullptr)
@@ -193,7 +233,7 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
       constant(*declaration.initial, type, &pou, variable.constant);
   }
   if (!declaration.location.empty()) {
-    if (block.section != VariableSection::local || pou.declaration->kind == PouKind::function)
+    if (block.section != VariableSection::local || is_function)
       diagnostics_.error(declaration.location_at,
                          "AT is for VAR of programs and function blocks and for VAR_GLOBAL");
     locate(variable, declaration);
@@ -201,7 +241,9 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
   }
   const auto offset = static_cast<std::uint32_t>(pou.initial.size());
   variable.place = {Place::Base::frame, static_cast<std::int32_t>(offset), 0, -1, 0, 0, true, ""};
-  if (block.section == VariableSection::input && pou.declaration->kind == PouKind::function_block) {
+  const bool writes_inputs = is_codesys(declaration.at);
+  if (block.section == VariableSection::input && pou.declaration->kind == PouKind::function_block &&
+      !writes_inputs) {
     variable.place.writable = false;
     variable.place.refusal = "is an input of the function block";
   }
@@ -263,31 +305,60 @@ void Unit::declare_variables(Pou& pou) {
   } else if (pou.declaration->kind == PouKind::function) {
     pou.initial.push_back(0);
   }
-  for (const auto& block : pou.declaration->blocks)
-    for (const auto& declaration : block.variables) declare_variable(pou, block, declaration);
+  if (pou.is_method()) {
+    pou.self = static_cast<std::uint32_t>(pou.initial.size());
+    pou.initial.push_back(0);
+    if (pou.declaration->kind == PouKind::function_block) return;  // SUPER() has none of its own
+  }
+  // Those of an extended block come first, in its own order.
+  std::vector<const Pou*> lineage;
+  for (const Pou* block = &pou; block != nullptr; block = block->parent)
+    lineage.insert(lineage.begin(), block);
+  for (const auto* block : lineage) declare_blocks(pou, *block);
+}
+
+void Unit::declare_blocks(Pou& pou, const Pou& declared_in) {
+  // An export may use a constant before it declares it.
+  const bool sorts = is_codesys(declared_in.declaration->at);
+  for (const bool first : {true, false})
+    for (const auto& block : declared_in.declaration->blocks)
+      if (first == (block.constant || !sorts))
+        for (const auto& declaration : block.variables)
+          declare_variable(pou, declared_in, block, declaration);
 }
 
 void Unit::translate(Pou& pou) {
+  blocks_.push_back({&pou});
+  pou.type.block = &blocks_.back();
+  find_parent(pou);
   declare_variables(pou);
+  check_methods(pou);
+  // Every instance has an address of its own, which values of interfaces are.
+  if (pou.declaration->kind == PouKind::function_block && pou.initial.empty()) pou.initial.push_back(0);
+  pou.is_declared = true;
   pou.frame = static_cast<std::uint32_t>(pou.initial.size());
   Lowering lowering(*this, &pou, pou.frame);
-  const bool is_function = pou.declaration->kind == PouKind::function;
+  const bool is_function = keeps_nothing(pou);
   for (const auto& variable : pou.variables)
     if (variable.section == VariableSection::temporary ||
         (is_function &&
          (variable.section == VariableSection::local || variable.section == VariableSection::output)))
       lowering.initialize(variable);
+  if (pou.is_method() && pou.declaration->kind == PouKind::function_block)
+    for (const auto& variable : pou.instance->variables)
+      if (variable.section == VariableSection::temporary && variable.declared_in == pou.declared_in)
+        lowering.initialize(variable);
   lowering.body(pou.declaration->body);
   pou.frame = lowering.emitter().frame();
-  pou.initial.resize(pou.frame, 0);
+  check_frame(pou);
+  if (!pou.is_method()) pou.initial.resize(pou.frame, 0);
   pou.routine = add_routine(lowering.emitter(), pou.frame);
   pou.type.cells = pou.frame;
   pou.type.initial = pou.initial;
-  blocks_.push_back({&pou});
-  pou.type.block = &blocks_.back();
   order.push_back(&pou);
-  if (!is_library(pou.declaration->at)) warn_unused(pou);
-  if (pou.declaration->kind == PouKind::function_block || is_configured(pou)) return;
+  // A variable of a function block may be used by a method, which is translated later.
+  if (!is_library(pou.declaration->at) && pou.declaration->kind != PouKind::function_block) warn_unused(pou);
+  if (pou.declaration->kind == PouKind::function_block || pou.is_method() || is_configured(pou)) return;
   pou.base = allocate(pou.initial);
   if (is_function) return;
   for (const auto& variable : pou.variables)
@@ -309,7 +380,7 @@ void Unit::translate(Pou& pou) {
 
 void Unit::warn_unused(const Pou& pou) {
   for (const auto& variable : pou.variables)
-    if (!variable.used &&
+    if (!variable.used && (variable.declared_in == nullptr || variable.declared_in == &pou) &&
         (variable.section == VariableSection::local || variable.section == VariableSection::temporary ||
          variable.section == VariableSection::external))
       diagnostics_.warning(variable.at, "the variable '" + variable.text + "' is not used");
@@ -326,6 +397,12 @@ std::uint32_t Unit::add_routine(Emitter& emitter, std::uint32_t frame) {
   for (const auto& line : emitter.lines()) code.lines.push_back({entry + line.instruction, line.at});
   code.routines.push_back({entry, static_cast<std::uint32_t>(code.code.size()), frame});
   return static_cast<std::uint32_t>(code.routines.size() - 1);
+}
+
+void Unit::check_frame(const Pou& pou) {
+  if (pou.frame > most_cells)
+    diagnostics_.error(pou.declaration->at, "the variables of '" + title_of(pou) + "' need more than " +
+                                                std::to_string(most_cells) + " cells");
 }
 
 std::uint32_t Unit::allocate(const std::vector<std::uint64_t>& initial) {

@@ -12,6 +12,15 @@ namespace {
 constexpr std::uint32_t default_string = 80;
 constexpr std::int64_t most_elements = 1 << 19;
 
+/// Through references and arrays alone, so that there is no variable behind them.
+bool leads_to(const Type* from, const Type* to) {
+  const auto leads = [](const Type& type) {
+    return type.kind == Kind::reference || type.kind == Kind::array;
+  };
+  while (from != nullptr && from != to && leads(*from)) from = from->element;
+  return from == to;
+}
+
 }  // namespace
 
 void Unit::register_types() {
@@ -39,7 +48,7 @@ const Type* Unit::named_type(const std::string& upper) {
     return named_[upper] = elementary(Kind::error);
   }
   const auto* type = build(*declaration.type, declaration.text, nullptr);
-  if (const auto again = named_.find(upper); again != named_.end()) return again->second;
+  if (const auto again = named_.find(upper); again != named_.end()) return named(upper, again->second);
   if (declaration.initial != nullptr && type->kind != Kind::error) {
     named_[upper] = type;  // TYPE Colour : (red, green) := Colour#green
     auto& own = types_.emplace_back(*type);
@@ -47,7 +56,38 @@ const Type* Unit::named_type(const std::string& upper) {
     type = &own;
   }
   in_progress_.erase(upper);
+  return named(upper, type);
+}
+
+/// The type has its name, and references in it have their type.
+const Type* Unit::named(const std::string& upper, const Type* type) {
+  for (auto& [reference, name] : open_references_) {
+    if (name != upper) continue;
+    reference->element = leads_to(type, reference) ? elementary(Kind::error) : type;
+    if (reference->element != type)
+      diagnostics_.error(declared_.at(upper)->at,
+                         "the type '" + declared_.at(upper)->text + "' contains itself");
+  }
   return named_[upper] = type;
+}
+
+/// A structure or function block may contain a reference to its own type, as the elements of a list do.
+const Type* Unit::reference(const TypeSpec& element, Pou* context) {
+  const bool is_named = element.kind == TypeSpec::Kind::named && !element.low;
+  if (auto* pou = is_named ? find_pou(element.name) : nullptr;
+      pou != nullptr && pou->declaration->kind == PouKind::function_block &&
+      pou->state == Pou::State::in_progress)
+    return reference_type(pou->type);
+  if (is_named && in_progress_.contains(element.name) && !named_.contains(element.name)) {
+    auto& type = types_.emplace_back();
+    type.kind = Kind::reference;
+    type.name = "REF_TO " + element.text;
+    type.initial = {null_reference};
+    open_references_.emplace_back(&type, element.name);
+    return &type;
+  }
+  const auto* type = build(element, "", context);
+  return type->kind == Kind::error ? type : reference_type(*type);
 }
 
 const Type* Unit::string_type(std::uint32_t length, bool wide) {
@@ -65,6 +105,19 @@ const Type* Unit::string_type(std::uint32_t length, bool wide) {
   return known;
 }
 
+const Type* Unit::reference_type(const Type& element) {
+  auto& known = references_to_[&element];
+  if (known == nullptr) {
+    auto& type = types_.emplace_back();
+    type.kind = Kind::reference;
+    type.name = "REF_TO " + element.name;
+    type.element = &element;
+    type.initial = {null_reference};
+    known = &type;
+  }
+  return known;
+}
+
 const Type* Unit::type_of(const TypeSpec& spec, Pou* context) { return build(spec, "", context); }
 
 const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* context) {
@@ -75,6 +128,8 @@ const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* cont
       return structure(spec, name.empty() ? "structure" : name, context);
     case TypeSpec::Kind::array:
       return array(spec, context);
+    case TypeSpec::Kind::reference:
+      return reference(*spec.element, context);
     case TypeSpec::Kind::string: {
       const bool wide = spec.name == "WSTRING";
       const auto longest = wide ? longest_wide_string : longest_string;
@@ -99,8 +154,16 @@ const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* cont
         diagnostics_.error(spec.at, "'" + spec.text + "' is no type and no function block");
         return elementary(Kind::error);
       }
+      if (pou->declaration->is_abstract) {
+        diagnostics_.error(
+            spec.at,
+            "'" + spec.text + "' is ABSTRACT and has no instances; declare one of a block that extends it");
+        return elementary(Kind::error);
+      }
       return translated(spec.name, spec.at) == nullptr ? elementary(Kind::error) : &pou->type;
     }
+  if (const auto* interface = find_interface(spec.name); type == nullptr && interface != nullptr)
+    return &interface->type;
   if (type == nullptr) {
     diagnostics_.error(spec.at, "there is no type '" + spec.text + "'");
     return elementary(Kind::error);
@@ -170,7 +233,15 @@ const Enumerator* Unit::find_enumerator(const std::string& upper, const Type** t
 }
 
 const Type* Unit::array(const TypeSpec& spec, Pou* context) {
+  const bool is_in_out = &spec == in_out_spec_;
   const auto* element = build(*spec.element, "", context);
+  const auto is_open = [](const TypeSpec::Dimension& dimension) { return dimension.low == nullptr; };
+  if (std::any_of(spec.dimensions.begin(), spec.dimensions.end(), is_open)) {
+    if (is_in_out && std::all_of(spec.dimensions.begin(), spec.dimensions.end(), is_open))
+      return open_array(spec, element);
+    diagnostics_.error(spec.at, "ARRAY[*] is for VAR_IN_OUT, where the caller's array gives every limit");
+    return elementary(Kind::error);
+  }
   Type type;
   type.kind = Kind::array;
   type.element = element;
@@ -206,6 +277,21 @@ const Type* Unit::array(const TypeSpec& spec, Pou* context) {
   for (std::int64_t i = 0; i < elements; ++i)
     type.initial.insert(type.initial.end(), element->initial.begin(), element->initial.end());
   return &types_.emplace_back(std::move(type));
+}
+
+const Type* Unit::open_array(const TypeSpec& spec, const Type* element) {
+  if (element->kind == Kind::error) return element;
+  auto& type = types_.emplace_back();
+  type.kind = Kind::array;
+  type.open = true;
+  type.element = element;
+  type.dimensions.resize(spec.dimensions.size());
+  type.name = "ARRAY[";
+  for (std::size_t i = 0; i < spec.dimensions.size(); ++i) type.name += i == 0 ? "*" : ",*";
+  type.name += "] OF " + element->name;
+  type.cells = element->cells;
+  type.initial = element->initial;
+  return &type;
 }
 
 const Type* Unit::structure(const TypeSpec& spec, const std::string& name, Pou* context) {

@@ -32,6 +32,7 @@ struct Value {
   std::string text;  ///< of strings; of a real literal its digits, "" when computed
   Place place;
   Variable* variable = nullptr;  ///< the variable itself, not a part of it
+  std::int32_t limits = -1;      ///< of ARRAY[*]: the first of the cells of the frame with its limits
 
   bool is_error() const { return type->kind == Kind::error; }
   bool is_literal() const { return type->kind == Kind::integer_literal || type->kind == Kind::real_literal; }

@@ -22,29 +22,34 @@ struct Argument {
   ExpressionPtr value;
 };
 
+/// THIS.name is a variable or method of the instance, SUPER.name one of the function block that is extended.
+enum class NameScope { any, instance, base };
+
 struct Expression {
   enum class Kind {
-    integer,    ///< text: digits, base
-    real,       ///< text
-    boolean,    ///< text: "1" or "0"
-    string,     ///< text; base 16: WSTRING
-    time,       ///< name: prefix, text
-    name,       ///< text, name
-    direct,     ///< name: address without percent sign
-    member,     ///< parts[0].name
-    part,       ///< parts[0].%name
-    index,      ///< parts[0][parts[1..]]
-    unary,      ///< name: - or NOT
-    binary,     ///< name: operator
-    call,       ///< parts[0](arguments)
-    typed,      ///< name#parts[0]
-    list,       ///< [a, b, 2(c)]: parts; repetitions in `repeat`
-    structure,  ///< (a := 1, b := 2): arguments
+    integer,      ///< text: digits, base
+    real,         ///< text
+    boolean,      ///< text: "1" or "0"
+    string,       ///< text; base 16: WSTRING
+    time,         ///< name: prefix, text
+    name,         ///< text, name
+    direct,       ///< name: address without percent sign
+    member,       ///< parts[0].name
+    part,         ///< parts[0].%name
+    index,        ///< parts[0][parts[1..]]
+    dereference,  ///< parts[0]^
+    unary,        ///< name: - or NOT
+    binary,       ///< name: operator
+    call,         ///< parts[0](arguments)
+    typed,        ///< name#parts[0]
+    list,         ///< [a, b, 2(c)]: parts; repetitions in `repeat`
+    structure,    ///< (a := 1, b := 2): arguments
   };
   Kind kind = Kind::integer;
   Position at;
   std::string text;  ///< as written
   std::string name;  ///< in capitals
+  NameScope scope = NameScope::any;
   int base = 10;
   std::vector<ExpressionPtr> parts;
   std::vector<ExpressionPtr> repeat;  ///< of lists: count of each part or nothing
@@ -84,6 +89,7 @@ struct Statement {
   };
   Kind kind = Kind::assign;
   Position at;
+  bool attempts = false;        ///< of assign: ?=
   ExpressionPtr target, value;  ///< of assign; `value` of a call, CASE, WHILE, REPEAT; `target` of FOR
   ExpressionPtr to, by;         ///< of FOR, with `value` as its first value
   std::vector<Branch> branches;
@@ -108,9 +114,9 @@ struct VariableDeclaration {
 };
 
 struct TypeSpec {
-  enum class Kind { named, array, string, structure, enumeration };
+  enum class Kind { named, array, string, structure, enumeration, reference };
   struct Dimension {
-    ExpressionPtr low, high;
+    ExpressionPtr low, high;  ///< of ARRAY[*] none
   };
   struct Enumerator {
     std::string name, text;
@@ -122,7 +128,7 @@ struct TypeSpec {
   std::string name, text;   ///< of named; of an enumeration the type of its values, if it says one
   ExpressionPtr low, high;  ///< of a subrange
   std::vector<Dimension> dimensions;
-  TypeSpecPtr element;   ///< of an array
+  TypeSpecPtr element;   ///< of an array or a reference
   ExpressionPtr length;  ///< of a string
   std::vector<VariableDeclaration> fields;
   std::vector<Enumerator> enumerators;
@@ -132,8 +138,12 @@ struct TypeSpec {
 
 enum class VariableSection { local, input, output, in_out, temporary, global, external };
 
+/// From where a method or a variable of VAR is used; INTERNAL is public_, as there are no namespaces.
+enum class Access { public_, protected_, private_ };
+
 struct VariableBlock {
   VariableSection section = VariableSection::local;
+  Access access = Access::protected_;
   bool retain = false, constant = false;
   Position at;
   std::vector<VariableDeclaration> variables;
@@ -141,9 +151,15 @@ struct VariableBlock {
   std::vector<ExpressionPtr> initials;
 };
 
-enum class PouKind { program, function, function_block, test };
+enum class PouKind { program, function, function_block, test, method };
 
-/// A program organization unit.
+/// A name behind EXTENDS or IMPLEMENTS.
+struct NamedPlace {
+  std::string name, text;
+  Position at;
+};
+
+/// A program organization unit; a class is a function block without a body.
 struct PouDeclaration {
   PouKind kind = PouKind::program;
   std::string name, text;
@@ -152,6 +168,19 @@ struct PouDeclaration {
   std::vector<VariableBlock> blocks;
   Statements body;
   Position end;
+  Access access = Access::public_;  ///< of a method
+  bool is_class = false, is_final = false, is_abstract = false, overrides = false;
+  NamedPlace extends;                   ///< of a function block; without a name: none
+  std::vector<NamedPlace> implements;   ///< interfaces
+  std::vector<PouDeclaration> methods;  ///< of a function block
+};
+
+/// INTERFACE; its methods have no statements.
+struct InterfaceDeclaration {
+  std::string name, text;
+  Position at;
+  std::vector<NamedPlace> extends;
+  std::vector<PouDeclaration> methods;
 };
 
 struct TypeDeclaration {
@@ -193,6 +222,7 @@ struct SourceTree {
   std::vector<TypeDeclaration> types;
   std::vector<VariableBlock> globals;
   std::vector<PouDeclaration> pous;
+  std::vector<InterfaceDeclaration> interfaces;
   std::vector<ConfigurationDeclaration> configurations;
 };
 

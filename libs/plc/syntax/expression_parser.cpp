@@ -191,6 +191,42 @@ ExpressionPtr ExpressionParser::typed_literal() {
   return node;
 }
 
+void ExpressionParser::refuse_pointer() {
+  if (!has_refused_pointer_)
+    diagnostics_.error(
+        now().at,
+        "there are no pointers; write REF_TO, pass the variable as VAR_IN_OUT, and take bytes of a string "
+        "with MID");
+  has_refused_pointer_ = true;
+}
+
+/// THIS. and SUPER., with or without ^ behind the word; a variable may have these names.
+bool ExpressionParser::at_scoped_name() const {
+  const auto& next = ahead();
+  if (next.kind != TokenKind::symbol || !(is_word("THIS") || is_word("SUPER"))) return false;
+  return next.text == "." || next.text == "^" || (is_word("SUPER") && next.text == "(");
+}
+
+/// THIS.name, SUPER.name; SUPER() is the body of the function block that is extended and has no name.
+ExpressionPtr ExpressionParser::scoped_name() {
+  const auto word = take();
+  const bool base = word.upper == "SUPER";
+  accept_symbol("^");
+  auto node = make_name(word.text, word.at);
+  if (!base && !is_symbol(".")) return node;
+  node->scope = base ? NameScope::base : NameScope::instance;
+  if (base && is_symbol("(")) {
+    node->name.clear();
+    return node;
+  }
+  expect_symbol(".", "behind " + word.upper);
+  const auto token = expect_name("the name of a variable or method behind '.'");
+  node->name = token.upper;
+  node->text = token.text;
+  node->at = token.at;
+  return node;
+}
+
 ExpressionPtr ExpressionParser::designator() {
   ExpressionPtr node;
   if (now().kind == TokenKind::direct) {
@@ -198,6 +234,8 @@ ExpressionPtr ExpressionParser::designator() {
     node = make(Expression::Kind::direct, token.at);
     node->name = token.text;
     node->text = "%" + token.text;
+  } else if (at_scoped_name()) {
+    node = scoped_name();
   } else {
     const auto token = expect_name("a variable");
     const auto edge = edges_.find(token.upper);
@@ -214,10 +252,12 @@ ExpressionPtr ExpressionParser::designator() {
     if (levels > 200) fail("fewer members");
     if (is_symbol(".")) {
       take();
-      if (now().kind == TokenKind::direct) {
+      // The X of a bit may be left out: b.3 (IEC 61131-3:2013, table 17).
+      const bool bit = now().kind == TokenKind::integer && now().base == 10;
+      if (now().kind == TokenKind::direct || bit) {
         const auto token = take();
         auto part = make(Expression::Kind::part, token.at);
-        part->name = token.text;
+        part->name = bit ? "X" + token.text : token.text;
         part->parts.push_back(std::move(node));
         node = std::move(part);
         continue;
@@ -229,6 +269,11 @@ ExpressionPtr ExpressionParser::designator() {
       member->text = token.text;
       member->parts.push_back(std::move(node));
       node = std::move(member);
+    } else if (is_symbol("^")) {
+      auto value = make(Expression::Kind::dereference, take().at);
+      value->text = node->text + "^";
+      value->parts.push_back(std::move(node));
+      node = std::move(value);
     } else if (is_symbol("[")) {
       auto index = make(Expression::Kind::index, take().at);
       index->parts.push_back(std::move(node));
@@ -273,22 +318,37 @@ std::vector<Argument> ExpressionParser::arguments() {
   return result;
 }
 
+/// 1, 2, 5(0): the initial values of an array.
+ExpressionPtr ExpressionParser::initial_list(Position at) {
+  auto list = make(Expression::Kind::list, at);
+  do {
+    ExpressionPtr repeat;
+    if (now().kind == TokenKind::integer && ahead().kind == TokenKind::symbol && ahead().text == "(") {
+      repeat = primary();
+      take();
+      list->parts.push_back(is_symbol(")") ? nullptr : initializer());
+      expect_symbol(")", "behind the repeated value");
+    } else {
+      list->parts.push_back(initializer());
+    }
+    list->repeat.push_back(std::move(repeat));
+  } while (accept_symbol(","));
+  return list;
+}
+
+/// The first edition of the standard, and CoDeSys 2.3, have no brackets around the values of an array.
+ExpressionPtr ExpressionParser::array_initializer() {
+  if (is_symbol("[")) return initializer();
+  auto list = initial_list(now().at);
+  const bool single = list->parts.size() == 1 && list->repeat[0] == nullptr;
+  if (single) return std::move(list->parts[0]);
+  return list;
+}
+
 ExpressionPtr ExpressionParser::initializer() {
   const Depth depth(*this);
   if (is_symbol("[")) {
-    auto list = make(Expression::Kind::list, take().at);
-    do {
-      ExpressionPtr repeat;
-      if (now().kind == TokenKind::integer && ahead().kind == TokenKind::symbol && ahead().text == "(") {
-        repeat = primary();
-        take();
-        list->parts.push_back(is_symbol(")") ? nullptr : initializer());
-        expect_symbol(")", "behind the repeated value");
-      } else {
-        list->parts.push_back(initializer());
-      }
-      list->repeat.push_back(std::move(repeat));
-    } while (accept_symbol(","));
+    auto list = initial_list(take().at);
     expect_symbol("]", "behind the initial values");
     return list;
   }

@@ -19,7 +19,7 @@ int digit_value(char c) {
 constexpr std::array<std::string_view, 16> time_prefixes = {
     "T",  "TIME",          "LT", "LTIME", "D",    "DATE",         "TOD", "TIME_OF_DAY",
     "DT", "DATE_AND_TIME", "LD", "LDATE", "LTOD", "LTIME_OF_DAY", "LDT", "LDATE_AND_TIME"};
-constexpr std::array<std::string_view, 8> long_symbols = {":=", "=>", "<=", ">=", "<>", "**", ".."};
+constexpr std::array<std::string_view, 8> long_symbols = {":=", "=>", "<=", ">=", "<>", "**", "..", "?="};
 
 class Lexer {
  public:

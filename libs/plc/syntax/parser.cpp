@@ -22,8 +22,10 @@ void DeclarationParser::declaration() {
   if (is_word("VAR_GLOBAL")) return tree_.globals.push_back(variable_block());
   if (is_word("PROGRAM")) return pou(PouKind::program, "END_PROGRAM", "a program");
   if (is_word("FUNCTION")) return pou(PouKind::function, "END_FUNCTION", "a function");
-  if (is_word("FUNCTION_BLOCK"))
+  if (is_word("FUNCTION_BLOCK") || is_word("FUNCTIONBLOCK"))  // CoDeSys writes both
     return pou(PouKind::function_block, "END_FUNCTION_BLOCK", "a function block");
+  if (at_interface()) return interface();
+  if (at_class()) return pou(PouKind::function_block, "END_CLASS", "a class");
   if (is_word("TEST")) return pou(PouKind::test, "END_TEST", "a test");
   if (at_configuration()) return configuration();
   fail("PROGRAM, FUNCTION, FUNCTION_BLOCK, TEST, TYPE, VAR_GLOBAL or CONFIGURATION");
@@ -32,15 +34,15 @@ void DeclarationParser::declaration() {
 // To behind the end of a declaration, or to the next one.
 void DeclarationParser::recover() {
   for (; now().kind != TokenKind::end; take()) {
-    for (const auto* end :
-         {"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST", "END_TYPE", "END_CONFIGURATION"})
+    for (const auto* end : {"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_INTERFACE",
+                            "END_TEST", "END_TYPE", "END_CONFIGURATION"})
       if (is_word(end)) {
         take();
         return;
       }
     for (const auto* start : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL"})
       if (is_word(start)) return;
-    if (at_configuration()) return;
+    if (at_configuration() || at_class() || at_interface()) return;
   }
 }
 
@@ -53,7 +55,8 @@ void DeclarationParser::type_block() {
     declaration.at = name.at;
     expect_symbol(":", "behind the name of the type");
     declaration.type = type_spec();
-    if (accept_symbol(":=")) declaration.initial = initializer();
+    const bool list = declaration.type->kind == TypeSpec::Kind::array;
+    if (accept_symbol(":=")) declaration.initial = list ? array_initializer() : initializer();
     if (declaration.type->kind == TypeSpec::Kind::structure)
       accept_symbol(";");
     else
@@ -78,6 +81,7 @@ TypeSpecPtr DeclarationParser::type_spec() {
     expect_symbol("[", "before the limits of the array");
     do {
       auto& dimension = spec->dimensions.emplace_back();
+      if (accept_symbol("*")) continue;
       dimension.low = expression();
       expect_symbol("..", "between the limits of the array");
       dimension.high = expression();
@@ -85,6 +89,14 @@ TypeSpecPtr DeclarationParser::type_spec() {
     expect_symbol("]", "behind the limits of the array");
     expect_word("OF", "before the type of the elements");
     spec->element = type_spec();
+  } else if (is_word("REF_TO") && ahead().kind == TokenKind::identifier) {
+    take();
+    spec->kind = TypeSpec::Kind::reference;
+    spec->element = type_spec();
+  } else if (is_word("POINTER") && ahead().upper == "TO") {
+    refuse_pointer();
+    take(), take();
+    return type_spec();
   } else if (is_word("STRING") || is_word("WSTRING")) {
     spec->name = take().upper;
     spec->kind = TypeSpec::Kind::string;
@@ -162,7 +174,8 @@ void DeclarationParser::variable_list(std::vector<VariableDeclaration>& variable
     edge = InputEdge::falling;
   Expression* initial = nullptr;
   if (accept_symbol(":=")) {
-    initials.push_back(initializer());
+    const bool list = types.back()->kind == TypeSpec::Kind::array;
+    initials.push_back(list ? array_initializer() : initializer());
     initial = initials.back().get();
   }
   expect_symbol(";", "behind the declaration");
@@ -191,9 +204,12 @@ VariableBlock DeclarationParser::variable_block() {
       block.retain = true;
     else if (accept_word("CONSTANT"))
       block.constant = true;
-    else if (!accept_word("NON_RETAIN"))
+    else if (!accept_word("NON_RETAIN") &&
+             !(block.section == VariableSection::local && accept_access(block.access)))
       break;
   }
+  // What a call gives is no constant: VAR_INPUT CONSTANT of CoDeSys is VAR_INPUT.
+  if (block.section == VariableSection::input) block.constant = false;
   while (!is_word("END_VAR")) {
     if (now().kind == TokenKind::end || at_pou_end()) fail("END_VAR");
     try {
@@ -221,7 +237,8 @@ void DeclarationParser::refuse_edge(const VariableDeclaration& variable) {
 
 bool DeclarationParser::at_pou_end() const {
   return is_word("END_PROGRAM") || is_word("END_FUNCTION") || is_word("END_FUNCTION_BLOCK") ||
-         is_word("END_TEST") || is_word("VAR");
+         is_word("END_METHOD") || is_word("END_INTERFACE") || is_word("END_CLASS") || is_word("END_TEST") ||
+         is_word("VAR");
 }
 
 /// The edge detections of the inputs of one list, and their calls.
@@ -277,10 +294,28 @@ Statements DeclarationParser::edge_calls(PouDeclaration& pou) {
   return calls;
 }
 
+void DeclarationParser::variable_blocks(PouDeclaration& pou) {
+  while (now().kind == TokenKind::identifier && now().upper.rfind("VAR", 0) == 0 &&
+         (ahead().kind != TokenKind::symbol)) {
+    if (is_word("VAR_GLOBAL")) {
+      tree_.globals.push_back(variable_block());
+      continue;
+    }
+    static const std::string_view sections[] = {"VAR",        "VAR_INPUT", "VAR_OUTPUT",
+                                                "VAR_IN_OUT", "VAR_TEMP",  "VAR_EXTERNAL"};
+    if (std::find(std::begin(sections), std::end(sections), now().upper) == std::end(sections)) break;
+    pou.blocks.push_back(variable_block());
+  }
+}
+
 void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view what) {
   PouDeclaration pou;
+  has_refused_pointer_ = false;
   pou.kind = kind;
+  pou.is_class = is_word("CLASS");
   take();
+  const bool has_methods = kind == PouKind::function_block;
+  if (has_methods) block_modifiers(pou);
   if (kind == PouKind::test && now().kind == TokenKind::string) {
     const auto name = take();
     pou.name = "TEST " + name.text;
@@ -297,22 +332,19 @@ void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view
     take();
     pou.result = type_spec();
   }
+  if (has_methods) extends(pou);
   accept_symbol(";");
-  while (now().kind == TokenKind::identifier && now().upper.rfind("VAR", 0) == 0 &&
-         (ahead().kind != TokenKind::symbol)) {
-    if (is_word("VAR_GLOBAL")) {
-      tree_.globals.push_back(variable_block());
-      continue;
-    }
-    static const std::string_view sections[] = {"VAR",        "VAR_INPUT", "VAR_OUTPUT",
-                                                "VAR_IN_OUT", "VAR_TEMP",  "VAR_EXTERNAL"};
-    if (std::find(std::begin(sections), std::end(sections), now().upper) == std::end(sections)) break;
-    pou.blocks.push_back(variable_block());
-  }
+  variable_blocks(pou);
+  if (has_methods) methods(pou);
   pou.body = edge_calls(pou);
-  auto body = statements({"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"});
+  for (;;) {
+    auto body = statements({"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_TEST"});
+    std::move(body.begin(), body.end(), std::back_inserter(pou.body));
+    if (!has_methods || !at_method()) break;
+    methods(pou);
+  }
   edges_.clear();
-  std::move(body.begin(), body.end(), std::back_inserter(pou.body));
+  if (pou.is_class) check_class(pou);
   pou.end = now().at;
   expect_word(end, "at the end of " + std::string(what));
   accept_symbol(";");

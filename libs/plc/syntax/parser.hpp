@@ -50,7 +50,9 @@ class TokenReader {
   [[noreturn]] void fail(const std::string& expected);
   /// How the current word is named in a message.
   std::string found() const;
-  bool is_keyword() const;
+  static bool is_keyword(const Token& token);
+  bool is_keyword() const { return is_keyword(now()); }
+  bool is_name(const Token& token) const { return token.kind == TokenKind::identifier && !is_keyword(token); }
   /// CONFIGURATION is a name elsewhere.
   bool at_configuration() const { return is_word("CONFIGURATION") && ahead().kind == TokenKind::identifier; }
   /// Nesting of expressions, types and statements; throws Abandoned beyond a limit.
@@ -82,6 +84,8 @@ class ExpressionParser : public TokenReader {
 
  protected:
   ExpressionPtr expression(int precedence = 0);
+  ExpressionPtr initial_list(Position at);
+  ExpressionPtr array_initializer();
   ExpressionPtr initializer();
   /// A variable, or a call of a function or function block.
   ExpressionPtr designator();
@@ -92,11 +96,16 @@ class ExpressionParser : public TokenReader {
   /// Of the unit whose body is read: inputs with R_EDGE or F_EDGE, in capitals, and the blocks that detect
   /// the edges.
   std::map<std::string, std::string, std::less<>> edges_;
+  /// One error for each unit.
+  void refuse_pointer();
+  bool has_refused_pointer_ = false;
 
  private:
   ExpressionPtr unary();
   ExpressionPtr primary();
   ExpressionPtr typed_literal();
+  bool at_scoped_name() const;
+  ExpressionPtr scoped_name();
   bool is_called_operator() const;
   ExpressionPtr operator_call();
 };
@@ -108,6 +117,10 @@ class StatementParser : public ExpressionParser {
  protected:
   /// Up to one of the words, which is not consumed.
   Statements statements(std::initializer_list<std::string_view> ends);
+  /// METHOD is a name elsewhere.
+  bool at_method() const { return is_word("METHOD") && ahead().kind == TokenKind::identifier; }
+  bool at_interface() const { return is_word("INTERFACE") && ahead().kind == TokenKind::identifier; }
+  bool at_class() const { return is_word("CLASS") && ahead().kind == TokenKind::identifier; }
 
  private:
   std::unique_ptr<Statement> statement();
@@ -142,6 +155,17 @@ class DeclarationParser : public StatementParser {
   VariableBlock edge_blocks(const VariableBlock& block, const PouDeclaration& pou, Statements& calls);
   Statements edge_calls(PouDeclaration& pou);
   bool at_pou_end() const;
+  void variable_blocks(PouDeclaration& pou);
+  bool accept_access(Access& access);
+  bool accept_modifier(PouDeclaration& unit);
+  void block_modifiers(PouDeclaration& block);
+  void extends(PouDeclaration& block);
+  std::vector<NamedPlace> interface_names();
+  void interface();
+  NamedPlace named_place(std::string_view what);
+  void check_class(const PouDeclaration& block);
+  void methods(PouDeclaration& block);
+  PouDeclaration method();
   void pou(PouKind kind, std::string_view end, std::string_view what);
   void configuration();
   void resource(ConfigurationDeclaration& configuration, std::string_view end);

@@ -31,9 +31,9 @@ Statements StatementParser::statements(std::initializer_list<std::string_view> e
 // missing.
 bool StatementParser::at_declaration() const {
   for (const auto* word : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL",
-                           "END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"})
+                           "END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_TEST"})
     if (is_word(word)) return true;
-  return at_configuration();
+  return at_configuration() || at_method() || at_class() || at_interface();
 }
 
 // To behind the next ';', or to the end of the enclosing statement.
@@ -90,9 +90,9 @@ std::unique_ptr<Statement> StatementParser::statement() {
     if (now().kind != TokenKind::identifier && now().kind != TokenKind::direct) fail("a statement");
     if (is_keyword()) fail("a statement");
     auto target = designator();
-    if (is_symbol(":=")) {
+    if (is_symbol(":=") || is_symbol("?=")) {
       s.at = target->at;
-      take();
+      s.attempts = take().text == "?=";
       s.kind = assign;
       s.target = std::move(target);
       s.value = expression();
@@ -105,7 +105,11 @@ std::unique_ptr<Statement> StatementParser::statement() {
       fail("':=' or '(' behind '" + target->text + "'");
     }
   }
-  expect_symbol(";", "at the end of the statement");
+  // END_IF and the like end a statement for everybody but the standard.
+  if (s.kind >= if_ && s.kind <= repeat)
+    accept_symbol(";");
+  else
+    expect_symbol(";", "at the end of the statement");
   return result;
 }
 

@@ -7,64 +7,24 @@
 namespace trunnion::st {
 namespace {
 
-constexpr std::array keywords = std::to_array<std::string_view>({"AND",
-                                                                 "ARRAY",
-                                                                 "AT",
-                                                                 "BY",
-                                                                 "CASE",
-                                                                 "CONSTANT",
-                                                                 "CONTINUE",
-                                                                 "DO",
-                                                                 "ELSE",
-                                                                 "ELSIF",
-                                                                 "END_CASE",
-                                                                 "END_FOR",
-                                                                 "END_FUNCTION",
-                                                                 "END_FUNCTION_BLOCK",
-                                                                 "END_IF",
-                                                                 "END_PROGRAM",
-                                                                 "END_REPEAT",
-                                                                 "END_STRUCT",
-                                                                 "END_TEST",
-                                                                 "END_TYPE",
-                                                                 "END_VAR",
-                                                                 "END_WHILE",
-                                                                 "EXIT",
-                                                                 "FALSE",
-                                                                 "FOR",
-                                                                 "FUNCTION",
-                                                                 "FUNCTION_BLOCK",
-                                                                 "IF",
-                                                                 "MOD",
-                                                                 "NOT",
-                                                                 "OF",
-                                                                 "OR",
-                                                                 "PROGRAM",
-                                                                 "REPEAT",
-                                                                 "RETAIN",
-                                                                 "RETURN",
-                                                                 "STRUCT",
-                                                                 "TEST",
-                                                                 "THEN",
-                                                                 "TO",
-                                                                 "TRUE",
-                                                                 "TYPE",
-                                                                 "UNTIL",
-                                                                 "VAR",
-                                                                 "VAR_EXTERNAL",
-                                                                 "VAR_GLOBAL",
-                                                                 "VAR_INPUT",
-                                                                 "VAR_IN_OUT",
-                                                                 "VAR_OUTPUT",
-                                                                 "VAR_TEMP",
-                                                                 "WHILE",
-                                                                 "XOR"});
+constexpr std::array keywords = std::to_array<std::string_view>(
+    {"AND",        "ARRAY",         "AT",           "BY",           "CASE",
+     "CONSTANT",   "CONTINUE",      "DO",           "ELSE",         "ELSIF",
+     "END_CASE",   "END_CLASS",     "END_FOR",      "END_FUNCTION", "END_FUNCTION_BLOCK",
+     "END_IF",     "END_INTERFACE", "END_METHOD",   "END_PROGRAM",  "END_REPEAT",
+     "END_STRUCT", "END_TEST",      "END_TYPE",     "END_VAR",      "END_WHILE",
+     "EXIT",       "FALSE",         "FOR",          "FUNCTION",     "FUNCTION_BLOCK",
+     "IF",         "MOD",           "NOT",          "OF",           "OR",
+     "PROGRAM",    "REPEAT",        "RETAIN",       "RETURN",       "STRUCT",
+     "TEST",       "THEN",          "TO",           "TRUE",         "TYPE",
+     "UNTIL",      "VAR",           "VAR_EXTERNAL", "VAR_GLOBAL",   "VAR_INPUT",
+     "VAR_IN_OUT", "VAR_OUTPUT",    "VAR_TEMP",     "WHILE",        "XOR"});
 
 }  // namespace
 
-bool TokenReader::is_keyword() const {
-  return now().kind == TokenKind::identifier &&
-         std::find(keywords.begin(), keywords.end(), now().upper) != keywords.end();
+bool TokenReader::is_keyword(const Token& token) {
+  return token.kind == TokenKind::identifier &&
+         std::find(keywords.begin(), keywords.end(), token.upper) != keywords.end();
 }
 
 bool TokenReader::accept_symbol(std::string_view text) {

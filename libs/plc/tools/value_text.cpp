@@ -88,6 +88,11 @@ std::string value_text(const Type& type, std::span<const std::uint64_t> cells) {
       for (const auto& enumerator : type.enumerators)
         if (enumerator.value == value) return enumerator.text;
       return std::to_string(value);
+    case Kind::interface_:
+      return cells[0] == null_reference ? "NULL"
+                                        : "an instance at cell " + std::to_string(cells[0] & 0xffffffffu);
+    case Kind::reference:
+      return cells[0] == null_reference ? "NULL" : "the variable at cell " + std::to_string(cells[0]);
     case Kind::array: {
       std::string text = "[";
       for (std::uint32_t i = 0; i < type.cells; i += type.element->cells)
@@ -173,6 +178,8 @@ void set_value(const Type& type, const std::string& text, std::span<std::uint64_
     std::fill(cells.begin(), cells.end(), 0);
     cells[0] = content.size();
     std::copy(content.begin(), content.end(), reinterpret_cast<char*>(cells.data() + 1));
+  } else if (is_reference(type.kind)) {
+    refuse("the programs set it");
   } else {
     refuse("set one of its elements");
   }

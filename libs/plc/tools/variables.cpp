@@ -271,7 +271,9 @@ Changeover::Changeover(const Variables& running, const Variables& next, bool onl
       losses_.push_back(told(at) + " is new: it begins with its initial value");
       continue;
     }
-    if (same_values(*found->second.type, *at.type)) {
+    if (is_reference(at.type->kind)) {
+      losses_.push_back(told(at) + " names a variable by its place: it begins with its initial value");
+    } else if (same_values(*found->second.type, *at.type)) {
       if (!only_retained || at.retained)
         moves_.push_back({found->second.address, at.address, at.type->cells, at.path});
     } else

@@ -23,8 +23,8 @@ std::string ProgramLoad::write(const std::string& name, std::string_view data) {
   if (phase_ != Phase::WRITING) return "no load has started, or its sources are complete; start a load";
   if (!st::is_source(name) || name.find('/') != std::string::npos)
     return "'" + name +
-           "': sources are .st files (not *_test.st), .xml files, fast.il, main.il, devices.yaml, "
-           "messages.yaml and modbus.yaml";
+           "': sources are .st files (not *_test.st), .exp and .xml files, fast.il, main.il, "
+           "devices.yaml, messages.yaml and modbus.yaml";
   auto found =
       std::find_if(files_.begin(), files_.end(), [&](const auto& file) { return file.name == name; });
   if (found == files_.end()) {

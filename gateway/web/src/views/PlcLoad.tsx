@@ -126,7 +126,7 @@ export function PlcLoad({ programs, close }: { programs: PlcPrograms; close: () 
         </select>
         <button onClick={() => chooser.current?.click()}>{t.plcChooseFiles}</button>
         <input
-          ref={chooser} type="file" hidden multiple accept=".st,.xml,.il,.yaml" aria-label={t.plcChooseFiles}
+          ref={chooser} type="file" hidden multiple accept=".st,.exp,.xml,.il,.yaml" aria-label={t.plcChooseFiles}
           onChange={(event) => {
             if (event.currentTarget.files) void choose(event.currentTarget.files);
           }}
