@@ -87,13 +87,16 @@ void InstructionList::instruction(Tokens line) {
   }
   const bool stores = op == "ST" || op == "STN" || op == "S" || op == "R";
   if (!stores && is_call(op, first, line)) return function(first, std::move(line));
-  if (!has_result(first.at)) return;
-  if (stores) return store(op, line, first.at);
+  if (stores) {
+    if (has_result(first.at)) store(op, line, first.at);
+    return;
+  }
   bool inverts = false;
   if (!list_operators.contains(op) && op.ends_with("N") &&
       list_operators.contains(op.substr(0, op.size() - 1)))
     inverts = true, op.pop_back();
   if (!list_operators.contains(op)) return fail(first.at, "unknown instruction '" + first.text + "'");
+  if (!has_result(first.at)) return;
   if (!line.empty() && line[0].text == "(" && line[0].kind == TokenKind::symbol)
     return open(op, inverts, std::move(line), first.at);
   if (!expression(line, first.at)) return;
