@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "plc/devices/device_file.hpp"
+#include "plc/instruction_list/list_file.hpp"
 #include "plc/library/derived_units.hpp"
 #include "plc/library/functions.hpp"
 #include "plc/machine/verify.hpp"
@@ -128,7 +129,7 @@ std::uint64_t Compilation::layout() const {
 
 bool is_compiled(const std::string& name) {
   return (name.ends_with(".st") && !name.ends_with("_test.st")) || is_codesys_export(name) ||
-         plcopen::is_plcopen(name);
+         plcopen::is_plcopen(name) || name == "fast.il" || name == "main.il";
 }
 
 bool is_codesys_export(const std::string& name) { return name.ends_with(".exp") || name.ends_with(".EXP"); }
@@ -149,6 +150,8 @@ Compilation compile(const std::vector<Source>& sources, const RegisterNames& reg
     const auto file = static_cast<std::uint16_t>(result.files.size() - 1);
     if (plcopen::is_plcopen(source.name))
       plcopen::import_document(source.text, file, kept->tree, kept->diagnostics, places);
+    else if (is_instruction_list(source.name))
+      import_list(source.name, source.text, file, kept->tree, kept->diagnostics);
     else
       parse(source.text, file, kept->tree, kept->diagnostics);
   }

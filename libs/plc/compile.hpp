@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structured Text (IEC 61131-3:2013) to byte code.
+// Structured Text (IEC 61131-3:2013), PLCopen XML and instruction lists to byte code.
 #pragma once
 
 #include <memory>
@@ -68,7 +68,8 @@ struct Compilation {
   std::uint64_t layout() const;
 };
 
-/// Whether a file of a directory with PLC programs is compiled: .st except *_test.st, .exp and .xml.
+/// Whether a file of a directory with PLC programs is compiled: .st except *_test.st, .exp, .xml, and the
+/// instruction lists fast.il and main.il.
 bool is_compiled(const std::string& name);
 
 /// Whether it is an export of CoDeSys 2.3 (.exp), whose units have its rules for operands of different types.

@@ -12,8 +12,7 @@
 namespace trunnion::st {
 
 bool is_source(const std::string& name) {
-  return is_compiled(name) || name == "fast.il" || name == "main.il" || name == "devices.yaml" ||
-         name == "messages.yaml" || name == "modbus.yaml";
+  return is_compiled(name) || name == "devices.yaml" || name == "messages.yaml" || name == "modbus.yaml";
 }
 
 const SourceFile* find(const SourceFiles& files, const std::string& name) {

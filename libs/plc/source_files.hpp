@@ -14,8 +14,8 @@ struct SourceFile {
 };
 using SourceFiles = std::vector<SourceFile>;
 
-/// Whether a file of this name is a source: what is compiled (.st except *_test.st, .xml), fast.il, main.il,
-/// devices.yaml, messages.yaml, modbus.yaml.
+/// Whether a file of this name is a source: what is compiled (is_compiled()), devices.yaml, messages.yaml,
+/// modbus.yaml.
 bool is_source(const std::string& name);
 
 /// Null when there is no such file.

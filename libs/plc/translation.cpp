@@ -2,14 +2,19 @@
 #include "plc/translation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <string_view>
 
 #include "plc/compile.hpp"
-#include "plc/instruction_list/compiler.hpp"
 #include "plc/library/register_names.hpp"
 
 namespace trunnion::st {
 namespace {
+
+constexpr std::array task_names = {"fast", "main"};
+constexpr std::array<std::string_view, 3> entry_names = {"FAST", "MAIN", "SIMULATION"};
+constexpr std::size_t simulation_task = 2;
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
@@ -42,39 +47,22 @@ Translation translate_sources(SourceFiles files, bool simulated, const std::stri
   }
   if (const auto* file = find(files, "messages.yaml"))
     programs.messages = read_messages(file->text, path(file->name));
-  Compilation compiled;
-  if (!sources.empty()) {
-    compiled = compile(sources, interface_registers());
-    programs.warnings = compiled.lines();
-    if (!compiled.good()) throw std::runtime_error(joined(programs.warnings));
-    require_cells(*compiled.code);
-    programs.code = compiled.code;
-    programs.layout = compiled.layout();
-    programs.variables = Variables(compiled);
-  }
-  il::Compiler compiler(il::interface_symbols());
-  il::Program* lists[] = {&programs.fast, &programs.main};
-  const char* names[] = {"fast", "main"};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto name = std::string(names[i]) + ".il";
-    if (programs.code)
-      for (std::size_t e = 0; e < programs.code->entries.size(); ++e)
-        if (programs.code->entries[e].name == (i == 0 ? "FAST" : "MAIN")) programs.entries[i] = e;
-    const auto* list = find(files, name);
-    if (list != nullptr && programs.entries[i])
-      throw std::runtime_error(path(name) + ": error: PROGRAM " + names[i] +
-                               " of the .st and .xml files is this task too; keep one of them");
-    if (list == nullptr && !programs.entries[i])
-      throw std::runtime_error(path(name) +
-                               ": error: cannot be opened, and no .st or .xml file has PROGRAM " + names[i]);
-    if (list == nullptr) continue;
-    *lists[i] = compiler.compile(list->text, path(name));
-    add_uses(compiled, path(name), *lists[i]);
-  }
+  const auto compiled = compile(sources, interface_registers());
+  programs.warnings = compiled.lines();
+  if (!compiled.good()) throw std::runtime_error(joined(programs.warnings));
+  require_cells(*compiled.code);
+  programs.code = compiled.code;
+  programs.layout = compiled.layout();
+  programs.variables = Variables(compiled);
   programs.uses = Uses(compiled);
-  for (const auto& warning : compiler.warnings()) programs.warnings.push_back(warning);
-  for (std::size_t e = 0; simulated && programs.code && e < programs.code->entries.size(); ++e)
-    if (programs.code->entries[e].name == "SIMULATION") programs.entries[2] = e;
+  for (std::size_t e = 0; e < programs.code->entries.size(); ++e)
+    for (std::size_t task = 0; task < programs.entries.size(); ++task)
+      if (programs.code->entries[e].name == entry_names[task] && (simulated || task != simulation_task))
+        programs.entries[task] = e;
+  for (std::size_t task = 0; task < simulation_task; ++task)
+    if (!programs.entries[task])
+      throw std::runtime_error(path(std::string(task_names[task]) + ".st") +
+                               ": error: is missing, and no other file has PROGRAM " + task_names[task]);
   return programs;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The programs of a PLC from their sources: instruction lists, Structured Text and simulated devices.
+// The programs of a PLC from their sources and the simulated devices.
 #pragma once
 
 #include <array>
@@ -12,7 +12,6 @@
 #include "plc/devices/device_file.hpp"
 #include "plc/devices/message_file.hpp"
 #include "plc/devices/modbus_file.hpp"
-#include "plc/instruction_list/program.hpp"
 #include "plc/machine/byte_code.hpp"
 #include "plc/source_files.hpp"
 #include "plc/tools/uses.hpp"
@@ -20,14 +19,13 @@
 
 namespace trunnion::st {
 
-inline constexpr std::size_t program_cells = 8192;  ///< of the variables of Structured Text
+inline constexpr std::size_t program_cells = 8192;  ///< of the variables of the programs
 
 /// Throws std::runtime_error when the variables of the programs need more than program_cells.
 void require_cells(const ByteCode& code);
 
 struct Translation {
-  il::Program fast, main;                             ///< instruction lists
-  std::shared_ptr<const ByteCode> code;               ///< nothing without Structured Text
+  std::shared_ptr<const ByteCode> code;
   std::uint64_t layout = 0;                           ///< Compilation::layout
   std::array<std::optional<std::size_t>, 3> entries;  ///< of `code`: fast, main, simulation
   std::vector<PositionSwitch> switches;
@@ -37,10 +35,10 @@ struct Translation {
   std::vector<std::string> warnings;
 };
 
-/// Translates the tasks `fast` and `main`: of each either <task>.il or the PROGRAM of this name in the .st
-/// files, which are translated together. With `simulated`, for a machine whose hardware is simulated, also
-/// the task `simulation`: devices.yaml, or a PROGRAM of this name. `directory` goes before the names in
-/// messages. Throws std::runtime_error with a line file:line:column: error: ... for each error.
+/// Translates what is_compiled() together; the programs `fast` and `main` are the tasks. With `simulated`,
+/// for a machine whose hardware is simulated, also the task `simulation`: devices.yaml, or a PROGRAM of this
+/// name. `directory` goes before the names in messages. Throws std::runtime_error with a line
+/// file:line:column: error: ... for each error.
 Translation translate_sources(SourceFiles files, bool simulated, const std::string& directory = "");
 
 /// modbus.yaml of the sources; without the file there are no connections. Throws as read_modbus().

@@ -669,7 +669,7 @@ export interface PlcTask {
   last_us: number;
   worst_us: number;
   budget_us: number;
-  /** Of the last scan; of an instruction list its instructions */
+  /** Of the last scan */
   statements: number;
   /** The most of one scan */
   most_statements: number;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import { declared, devices, inputBits, Paths, sourceLines } from "../src/plc/source";
+import { declared, devices, inputBits, listProgram, Paths, sourceLines } from "../src/plc/source";
 
 const source = `(* main task (* or another *)
    of two lines: ignored *)
@@ -76,4 +76,12 @@ test("a register with a name is found by it, a variable of the program before it
   expect(paths.find("m_code_0", "main")).toBe("main.m_code_0");
   expect(paths.find("m_code_1", "main")).toBe("m_code_1");
   expect(paths.find("fin_x", "main")).toBeUndefined();
+});
+
+test("an instruction list is the program of its file, with the blocks of its numbers", () => {
+  expect(listProgram("fast.il")).toBe("fast");
+  expect(listProgram("fast.st")).toBe("");
+  const lines = sourceLines("LD %X0.3 // TON 9, 1\nTON 3, 500\nfull: R_TRIG 4\nST lamp", "fast");
+  expect(lines.map(({ names }) => names)).toEqual([["LD", "%X0.3"], ["TON", "ton_3.Q"], ["full", "R_TRIG", "r_trig_4.Q"], ["ST", "lamp"]]);
+  expect(lines.every(({ unit, kind }) => unit === "fast" && kind === "PROGRAM")).toBe(true);
 });

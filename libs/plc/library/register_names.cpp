@@ -84,4 +84,14 @@ const RegisterNames& interface_registers() {
   return names;
 }
 
+RegisterAddress interface_address(const std::string& name) {
+  const auto found = interface_registers().find(upper_case(name));
+  if (found == interface_registers().end()) throw std::out_of_range("unknown register " + name);
+  return found->second;
+}
+
+RegisterAddress interface_address(const std::string& name, std::size_t index) {
+  return interface_address(name + "_" + std::to_string(index));
+}
+
 }  // namespace trunnion::st

@@ -26,6 +26,9 @@ const std::vector<NamedRegister>& register_table();
 std::string moved_register(const RegisterAddress& address);
 /// The same for Structured Text.
 const RegisterNames& interface_registers();
+/// Address of an interface register; throws std::out_of_range for a name that registers.yaml does not have.
+RegisterAddress interface_address(const std::string& name);
+RegisterAddress interface_address(const std::string& name, std::size_t index);
 
 extern const char* const registers_text;  ///< registers.yaml
 

@@ -112,8 +112,4 @@ std::vector<Node> children(Node node, std::string_view name) {
 
 std::string attribute(Node node, const char* name) { return node.attribute(name).value(); }
 
-void append(Tokens& tokens, Tokens more) {
-  tokens.insert(tokens.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-
 }  // namespace trunnion::st::plcopen

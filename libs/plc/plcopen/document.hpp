@@ -12,7 +12,6 @@
 
 namespace trunnion::st::plcopen {
 
-using Tokens = std::vector<Token>;
 using Node = pugi::xml_node;
 
 /// What is at a place and behind it, for messages.
@@ -59,7 +58,6 @@ Node child(Node node, std::string_view name);
 /// The elements in `node`, of this name when one is given.
 std::vector<Node> children(Node node, std::string_view name = "");
 std::string attribute(Node node, const char* name);
-void append(Tokens& tokens, Tokens more);
 
 /// Elements of types and values that contain each other.
 inline constexpr int deepest_element = 50;

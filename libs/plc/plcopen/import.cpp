@@ -3,11 +3,11 @@
 
 #include <set>
 
+#include "plc/instruction_list/list.hpp"
 #include "plc/plcopen/chart_statements.hpp"
 #include "plc/plcopen/configuration.hpp"
 #include "plc/plcopen/declarations.hpp"
 #include "plc/plcopen/diagram_statements.hpp"
-#include "plc/plcopen/instruction_list.hpp"
 #include "plc/syntax/parser.hpp"
 
 namespace trunnion::st::plcopen {
@@ -91,7 +91,8 @@ class Import {
       if (name == "ST") {
         append(all.statements, document_.content(language));
       } else if (name == "IL") {
-        append(all.statements, list_statements(document_, language));
+        append(all.statements,
+               InstructionList(document_.content(language), document_.file(), document_.diagnostics()).run());
       } else if (name == "SFC" && pou) {
         chart(pou, language, all);
       } else if (name == "LD" || name == "FBD") {

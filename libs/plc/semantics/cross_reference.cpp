@@ -61,6 +61,7 @@ std::vector<CrossReference> cross_reference(const Unit& unit) {
   std::map<const Variable*, std::size_t> of_variable;
   const auto declare = [&](const Variable& variable, const std::string& prefix) {
     if (variable.type->kind == Kind::error || variable.section == VariableSection::external) return;
+    if (variable.text.starts_with('@')) return;  // of an instruction list
     of_variable[&variable] = result.size();
     result.push_back({prefix + variable.text, variable.type->name, "", {}, {}});
   };

@@ -31,8 +31,10 @@ void Lowering::body(const Statements& statements) {
 void Lowering::statement(const Statement& s) {
   const auto mark = emit_.mark();
   emit_.place(s.at);
-  emit_.add(Op::statement);
   using enum Statement::Kind;
+  // What an instruction list keeps in between is a step on the way to what it writes.
+  const bool is_step = s.kind == assign && s.target->name.starts_with('@');
+  if (!is_step) emit_.add(Op::statement);
   switch (s.kind) {
     case assign:
       this->assign(s);

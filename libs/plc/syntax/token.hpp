@@ -2,6 +2,7 @@
 // Words of Structured Text (IEC 61131-3:2013, 6.1) with their places.
 #pragma once
 
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,12 @@ struct Token {
   int base = 10;      ///< of an integer; 16 of a string in double quotes, which is WSTRING
   Position at;
 };
+
+using Tokens = std::vector<Token>;
+
+inline void append(Tokens& tokens, Tokens more) {
+  tokens.insert(tokens.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
 
 /// The words of a source, with one `end` behind them. Of the three kinds of comments of the
 /// standard (* *) and /* */ nest.

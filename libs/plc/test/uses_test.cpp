@@ -2,7 +2,6 @@
 // The places that use a variable, by its path while the programs run.
 #include <gtest/gtest.h>
 
-#include "plc/instruction_list/compiler.hpp"
 #include "plc/library/register_names.hpp"
 #include "plc/tools/uses.hpp"
 
@@ -80,12 +79,13 @@ TEST(Uses, OfARegisterHaveItsBitsItsNamesAndTheVariableAtIt) {
 }
 
 TEST(Uses, OfAnInstructionListAreAmongThem) {
-  auto compilation = compiled();
-  il::Compiler lists(il::interface_symbols());
-  add_uses(compilation, "fast.il",
-           lists.compile("VAR\n  lamp AT Y9.1 : BOOL\nEND_VAR\nLD X9.0\nANDN emergency_stop\nST lamp\n"
-                         "LD G7\nADD 1\nST %W3\n",
-                         "fast.il"));
+  const auto compilation =
+      compile({{"m.st", conveyor_sources},
+               {"fast.il",
+                "VAR\n  lamp AT Y9.1 : BOOL\nEND_VAR\nLD X9.0\nANDN emergency_stop\nST lamp\n"
+                "LD G7\nADD 1\nST %W3\n"}},
+              interface_registers());
+  ASSERT_TRUE(compilation.good()) << testing::PrintToString(compilation.lines());
   const Uses uses(compilation);
   EXPECT_EQ(described(uses.of("%X9.0")), "m.st:14:4r m.st:15:4r fast.il:4:4r");
   EXPECT_EQ(described(uses.of("%Y9.1")), "m.st:14:37w fast.il:6:4w");

@@ -21,8 +21,6 @@ std::optional<RegisterAddress> register_of(std::string_view text) {
   return parse_register(text.substr(1), &problem);
 }
 
-auto order(const RegisterAddress& at) { return std::tuple(at.area, at.index, at.bit); }
-
 bool overlap(const RegisterAddress& a, const RegisterAddress& b) {
   return a.area == b.area && a.index == b.index && (a.bit == b.bit || !a.is_bit() || !b.is_bit());
 }
@@ -97,31 +95,6 @@ class Places {
 };
 
 }  // namespace
-
-void add_uses(Compilation& compilation, const std::string& file, const il::Program& list) {
-  compilation.files.push_back(file);
-  auto& references = compilation.references;
-  for (const auto& use : list.uses) {
-    auto entry = std::find_if(references.begin(), references.end(), [&](const CrossReference& one) {
-      const auto at = register_of(one.name);
-      return at && order(*at) >= order(use.address);
-    });
-    if (entry == references.end() || *register_of(entry->name) != use.address) {
-      entry = references.insert(entry, CrossReference{});
-      entry->name = register_text(use.address);
-      for (const auto& one : register_table())
-        if (one.address == use.address) entry->names.push_back(one.name);
-    }
-    if (!use.name.empty() &&
-        std::find(entry->names.begin(), entry->names.end(), use.name) == entry->names.end())
-      entry->names.push_back(use.name);
-    Use place;
-    place.at = {static_cast<std::uint16_t>(compilation.files.size() - 1),
-                static_cast<std::uint32_t>(use.line), static_cast<std::uint32_t>(use.column)};
-    place.reads = use.reads, place.writes = use.writes;
-    entry->uses.push_back(std::move(place));
-  }
-}
 
 Uses::Uses(const Compilation& compilation)
     : references_(compilation.references),

@@ -7,12 +7,8 @@
 #include <vector>
 
 #include "plc/compile.hpp"
-#include "plc/instruction_list/program.hpp"
 
 namespace trunnion::st {
-
-/// Adds the registers of an instruction list to the cross reference, and the file to its files.
-void add_uses(Compilation& compilation, const std::string& file, const il::Program& list);
 
 struct SourceUse {
   std::string file;

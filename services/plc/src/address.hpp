@@ -3,7 +3,7 @@
 #pragma once
 
 #include "memory.hpp"
-#include "plc/instruction_list/symbols.hpp"
+#include "plc/library/register_names.hpp"
 #include "plc/machine/register_area.hpp"
 
 namespace trunnion::plc {
@@ -11,7 +11,7 @@ namespace trunnion::plc {
 using st::Area;
 
 using Address = st::RegisterAddress;
-using il::interface_address;
+using st::interface_address;
 
 /// Bits of one register of the area: 8, 16 or 32.
 inline int width(Area area) { return st::info(area).bits; }

@@ -10,7 +10,6 @@
 #include <type_traits>
 
 #include "contracts/types.hpp"
-#include "plc/instruction_list/program.hpp"
 #include "plc/machine/machine.hpp"
 #include "plc/translation.hpp"
 
@@ -20,7 +19,6 @@ using idl::channel::AuxiliaryKind;
 
 inline constexpr std::size_t register_count = 512, block_register_count = 3360;
 inline constexpr std::size_t channel_count = 8, spindle_count = 8;
-using il::counter_count, il::edge_count, il::timer_count;
 
 /// The register image; idl/plc.idl defines the areas, libs/plc/machine/register_area.hpp their sizes.
 struct Registers {
@@ -35,41 +33,6 @@ struct Registers {
     visit("x", self.x), visit("y", self.y), visit("r", self.r), visit("f", self.f), visit("g", self.g);
     visit("b", self.b), visit("w", self.w), visit("d", self.d), visit("t", self.t), visit("c", self.c);
     visit("k", self.k), visit("p", self.p);
-  }
-};
-
-struct Timer {
-  std::uint64_t end = 0;     ///< PLC time in ms at which it runs out
-  std::uint8_t running = 0;  ///< counts towards `end`
-  std::uint8_t input = 0;    ///< of the last scan
-  std::uint8_t output = 0;
-
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit&& visit) {
-    visit("end", self.end), visit("running", self.running), visit("input", self.input);
-    visit("output", self.output);
-  }
-};
-
-struct Counter {
-  std::int32_t value = 0;
-  std::uint8_t input = 0;
-
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit&& visit) {
-    visit("value", self.value), visit("input", self.input);
-  }
-};
-
-/// State of the function blocks of every task.
-struct Blocks {
-  std::array<Timer, timer_count> timers{};
-  std::array<Counter, counter_count> counters{};
-  std::array<std::uint8_t, edge_count> edges{};
-
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit&& visit) {
-    visit("timers", self.timers), visit("counters", self.counters), visit("edges", self.edges);
   }
 };
 
@@ -95,8 +58,7 @@ struct Handshake {
 
 using st::program_cells;
 
-/// The variables of the programs in Structured Text and the fault that has stopped them. All zero without
-/// such programs.
+/// The variables of the programs and the fault that has stopped them. All zero without programs.
 struct ProgramVariables {
   struct Fault {
     std::uint32_t kind = 0;  ///< st::FaultKind
@@ -161,7 +123,6 @@ struct Forces {
 
 struct Memory {
   Registers registers;
-  Blocks blocks;
   std::array<Handshake, channel_count> handshakes{};
   std::uint64_t now_us = 0;                             ///< PLC time: how long it has run, over all starts
   std::uint64_t scans = 0;                              ///< whole milliseconds of it that were scanned
@@ -170,11 +131,11 @@ struct Memory {
   std::array<std::uint64_t, spindle_count>
       spindle_since{};  ///< PLC time in ms of the last change of the command
   Forces forces;
-  ProgramVariables program;  ///< the last member: files without such programs end before it. Not in `fields`
+  ProgramVariables program;  ///< the last member: files without programs end before it. Not in `fields`
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("registers", self.registers), visit("blocks", self.blocks), visit("handshakes", self.handshakes);
+    visit("registers", self.registers), visit("handshakes", self.handshakes);
     visit("now_us", self.now_us), visit("scans", self.scans), visit("tick", self.tick);
     visit("spindle_command", self.spindle_command), visit("spindle_since", self.spindle_since);
     visit("forces", self.forces);

@@ -74,9 +74,7 @@ void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time
   view_.changed = view_.changed || !continues;
 }
 
-void PlcCore::load(il::Program fast, il::Program main, StructuredText structured) {
-  fast_ = std::move(fast);
-  main_ = std::move(main);
+void PlcCore::load(StructuredText structured) {
   structured_ = std::move(structured);
   structured_.reset(memory_.program);
   loaded_ = true;
@@ -86,7 +84,7 @@ void PlcCore::load(il::Program fast, il::Program main, StructuredText structured
 void PlcCore::load(Programs programs) {
   set_position_switches(std::move(programs.switches));
   messages_ = std::move(programs.messages);
-  load(std::move(programs.fast), std::move(programs.main), std::move(programs.structured));
+  load(std::move(programs.structured));
 }
 
 void PlcCore::set_position_switches(std::vector<st::PositionSwitch> switches) {
@@ -107,8 +105,7 @@ void PlcCore::restore(const Memory& memory) {
   const auto before = memory_.program;
   structured_.restore(memory_.program);
   // The same programs have seen these inputs: one scan more would be one that nobody has asked for.
-  // Instruction lists have no identity.
-  view_.changed = memory_.program != before || memory_.tick == 0 || memory_.program.cells == 0;
+  view_.changed = memory_.program != before || memory_.tick == 0;
 }
 
 void PlcCore::power_up(const Memory& memory) {
@@ -118,11 +115,8 @@ void PlcCore::power_up(const Memory& memory) {
   auto& kept = memory_.registers;
   kept.b = memory.registers.b, kept.c = memory.registers.c;
   kept.k = memory.registers.k, kept.p = memory.registers.p;
-  const auto keep = [&](Address address) { store(kept, address, plc::load(memory.registers, address)); };
-  for (const auto* list : {&fast_, &main_})
-    for (const auto address : list->retained) keep(address);
   for (const auto& address : structured_.retained_registers())
-    keep({address.area, address.index, address.bit});
+    store(kept, address, plc::load(memory.registers, address));
   for (std::uint32_t i = 0; i < memory.forces.count; ++i)
     if (memory.forces.values[i].permanent != 0) force(memory.forces.values[i]);
   // Programs with an error lose nothing: the corrected ones find their variables.
@@ -315,9 +309,9 @@ void PlcCore::scan(bool main, bool present) {
   set_strobes(present);
   apply_forces();
   if (times_ != nullptr) times_->begin_scan();
-  if (structured_.has(TaskName::simulation)) run_task(TaskName::simulation, {});
-  run_task(TaskName::fast, fast_);
-  if (main) run_task(TaskName::main, main_);
+  run_task(TaskName::simulation);
+  run_task(TaskName::fast);
+  if (main) run_task(TaskName::main);
   if (times_ != nullptr) times_->end_scan();
   check_spindles();
   finish();
@@ -330,17 +324,11 @@ void PlcCore::scan(bool main, bool present) {
   if (orders_ != nullptr) orders_->after_scan(memory_.registers, memory_.now_us);
 }
 
-void PlcCore::run_task(TaskName task, const il::Program& program) {
-  if (has_program_fault()) return;
+void PlcCore::run_task(TaskName task) {
+  if (has_program_fault() || !structured_.has(task)) return;
   if (times_ != nullptr) times_->begin_task();
-  std::uint64_t executed = 0;
-  if (structured_.has(task)) {
-    structured_.run(task, memory_.registers, memory_.program, memory_.scans, main_part_);
-    executed = structured_.statements();
-  } else {
-    executed = execute(program, memory_.registers, memory_.blocks, memory_.scans);
-  }
-  if (times_ != nullptr) times_->end_task(task, executed);
+  structured_.run(task, memory_.registers, memory_.program, memory_.scans, main_part_);
+  if (times_ != nullptr) times_->end_task(task, structured_.statements());
   apply_forces();
 }
 
@@ -376,7 +364,7 @@ void PlcCore::advance(std::uint64_t tick) {
     ++memory_.scans;
     scan(memory_.scans % main_period == 0 || continues_main(), false);
   }
-  if (view_.changed || ended || timer_due(memory_.blocks, now) || structured_.timer_due(now)) settle();
+  if (view_.changed || ended || structured_.timer_due(now)) settle();
   view_.changed = false;
   view_.press_acted = view_.press_acted || emergency_stop();
   unscanned_.reset();
@@ -427,9 +415,7 @@ idl::plc::Outputs PlcCore::outputs() const {
   set_control(outputs);
   outputs.run_until_tick = memory_.tick;
   if (period_us_ > 0) {
-    auto until = next_timer_end(memory_.blocks, memory_.scans);
-    if (const auto end = structured_.next_timer_end(memory_.scans))
-      until = std::min(until.value_or(*end), *end);
+    auto until = structured_.next_timer_end(memory_.scans);
     if (continues_main()) until = std::min(until.value_or(~std::uint64_t{0}), memory_.scans + 1);
     if (spindle_moves) until = std::min(until.value_or(~std::uint64_t{0}), memory_.scans + main_period);
     if (until) outputs.run_until_tick += (*until * 1000 - memory_.now_us + period_us_ - 1) / period_us_;

@@ -9,7 +9,6 @@
 
 #include "address.hpp"
 #include "contracts/types.hpp"
-#include "execution.hpp"
 #include "machine/parameters.hpp"
 #include "panel_orders.hpp"
 #include "programs.hpp"
@@ -33,7 +32,7 @@ class PlcCore {
   void configure(const machine::Parameters& parameters, bool virtual_time);
   bool configured() const { return period_us_ > 0; }
   /// No programs: the outputs are safe (emergency stop).
-  void load(il::Program fast, il::Program main, StructuredText structured = {});
+  void load(StructuredText structured);
   void load(Programs programs);
   /// Between two scans: `next` runs from now on, with the values of the variables that `change` moves, with
   /// all registers, and with the forces whose variable is kept. Afterwards `next` has what ran before. A
@@ -89,7 +88,7 @@ class PlcCore {
   void set_orders(PanelOrders* orders) { orders_ = orders; }
   /// As of a copy that only computes: nobody is told of its scans.
   void scan_unseen() { trace_ = nullptr, times_ = nullptr, orders_ = nullptr; }
-  /// The most statements of each task in one scan, by TaskName; 0: an instruction list, which always ends.
+  /// The most statements of each task in one scan, by TaskName; 0: the machine has no such task.
   std::array<std::uint64_t, 3> statement_budgets() const;
 
   /// Scans up to the drive's tick, then until the image is stable.
@@ -127,7 +126,7 @@ class PlcCore {
   void press_emergency_stop(const View::Press& press);
   void scan_before(std::size_t byte);
   void scan(bool main, bool present);
-  void run_task(TaskName task, const il::Program& program);
+  void run_task(TaskName task);
   bool continues_main() const { return memory_.program.main.interrupted != 0; }
   void settle();
   void find_control();
@@ -144,7 +143,6 @@ class PlcCore {
   bool at_speed(std::size_t spindle) const;
   bool at_standstill(std::size_t channel) const;
 
-  il::Program fast_, main_;
   StructuredText structured_;
   bool loaded_ = false, virtual_time_ = false;
   std::array<ChannelSymbols, channel_count> channel_symbols_;

@@ -10,7 +10,6 @@ namespace trunnion::plc {
 
 void PlcCore::take_over(Programs& next, const st::Changeover& change) {
   const auto old = memory_.program;
-  std::swap(fast_, next.fast), std::swap(main_, next.main);
   std::swap(structured_, next.structured), std::swap(switches_, next.switches);
   std::swap(messages_, next.messages);
   structured_.reset(memory_.program);

@@ -17,11 +17,12 @@ std::uint32_t crc32_of(SourceFiles files) {
 
 Programs translate(SourceFiles files, bool simulated, const std::string& directory) {
   auto made = st::translate_sources(std::move(files), simulated, directory);
-  Programs programs{std::move(made.fast),     std::move(made.main),     {},
-                    std::move(made.switches), std::move(made.messages), std::move(made.variables),
-                    std::move(made.uses),     std::move(made.warnings)};
-  if (made.code) programs.structured = StructuredText({made.code, made.layout, made.entries});
-  return programs;
+  return {StructuredText({made.code, made.layout, made.entries}),
+          std::move(made.switches),
+          std::move(made.messages),
+          std::move(made.variables),
+          std::move(made.uses),
+          std::move(made.warnings)};
 }
 
 }  // namespace trunnion::plc

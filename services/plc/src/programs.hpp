@@ -16,7 +16,6 @@ using st::SourceFiles;
 
 /// What a PLC runs.
 struct Programs {
-  il::Program fast, main;  ///< instruction lists
   StructuredText structured;
   std::vector<st::PositionSwitch> switches;
   st::MessageFile messages;

@@ -21,8 +21,12 @@ struct OldRegisters {
   std::uint16_t f[512], g[512];
   std::int32_t b[512];
 };
-constexpr std::size_t behind_registers = offsetof(Memory, forces) - offsetof(Memory, blocks);
-constexpr std::size_t old_memory = sizeof(OldRegisters) + behind_registers;
+// Behind the registers: 256 timers of 16 bytes, 256 counters of 8 and 512 edges of the instruction lists,
+// which are variables now.
+constexpr std::size_t old_blocks = 256 * 16 + 256 * 8 + 512;
+constexpr std::uint64_t layout_with_blocks = 2;
+constexpr std::size_t behind_blocks = offsetof(Memory, forces) - offsetof(Memory, handshakes);
+constexpr std::size_t old_memory = sizeof(OldRegisters) + old_blocks + behind_blocks;
 constexpr std::size_t variables_header = offsetof(ProgramVariables, main);
 
 // The memory of a version before; `bytes` ends before the variables of Structured Text or behind them.
@@ -32,8 +36,8 @@ Memory of_old(const unsigned char* bytes, std::size_t size) {
   OldRegisters registers;
   std::memcpy(&registers, bytes, sizeof registers);
   std::copy(std::begin(registers.b), std::end(registers.b), memory.registers.b.begin());
-  std::memcpy(reinterpret_cast<unsigned char*>(&memory) + offsetof(Memory, blocks), bytes + sizeof registers,
-              behind_registers);
+  std::memcpy(reinterpret_cast<unsigned char*>(&memory) + offsetof(Memory, handshakes),
+              bytes + sizeof registers + old_blocks, behind_blocks);
   if (size < old_memory + variables_header) return memory;
   std::memcpy(static_cast<void*>(&memory.program), bytes + old_memory, variables_header);
   std::memcpy(memory.program.values.data(), bytes + old_memory + variables_header,
@@ -114,7 +118,7 @@ RetainedMemory::Found RetainedMemory::load() const {
   Found result{found.state, std::nullopt, found.problem};
   const auto size = found.content.size();
   constexpr auto before = offsetof(Content, memory);
-  if (size < before + old_memory || size > sizeof(Content)) return result;
+  if (size < before + old_memory || size > sizeof(Content) + old_blocks) return result;
   Content content{};
   std::memcpy(static_cast<void*>(&content), found.content.data(), before);
   auto& program = content.memory.program;
@@ -126,9 +130,15 @@ RetainedMemory::Found RetainedMemory::load() const {
     result.kept = Kept{"", content.memory};
     return result;
   }
-  if (content.layout != Content::own_layout || size < size_with(0)) return result;
-  std::memcpy(static_cast<void*>(&content), found.content.data(), size);
-  if (program.cells > program_cells || size != size_with(program.cells)) program = {};
+  auto& bytes = found.content;
+  if (content.layout == layout_with_blocks && size >= size_with(0) + old_blocks) {
+    const auto blocks = bytes.begin() + before + offsetof(Memory, handshakes);
+    bytes.erase(blocks, blocks + old_blocks);
+  } else if (content.layout != Content::own_layout || size < size_with(0) || size > sizeof(Content)) {
+    return result;
+  }
+  std::memcpy(static_cast<void*>(&content), bytes.data(), bytes.size());
+  if (program.cells > program_cells || bytes.size() != size_with(program.cells)) program = {};
   result.kept = Kept{text_of(content.boot), content.memory};
   return result;
 }

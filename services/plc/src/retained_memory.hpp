@@ -14,13 +14,13 @@ class RetainedMemory {
  public:
   /// What the files keep.
   struct Content {
-    static constexpr std::uint64_t own_layout = 2;
+    static constexpr std::uint64_t own_layout = 3;
     char boot[56];
     std::uint64_t layout;  ///< of the memory; zero in files of versions before
     Memory memory;
   };
 
-  /// `cells`: of the variables of the programs in Structured Text.
+  /// `cells`: of the variables of the programs.
   explicit RetainedMemory(const std::string& path, std::size_t cells = 0);
 
   struct Kept {

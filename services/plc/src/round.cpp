@@ -54,12 +54,6 @@ std::string register_name(const RegisterValue& value) {
 std::uint64_t state_digest(const Snapshot& snapshot) {
   Digest digest;
   const auto& m = snapshot.memory;
-  for (const auto& timer : m.blocks.timers) {
-    digest.add(timer.end);
-    for (const auto part : {timer.running, timer.input, timer.output}) digest.add(part);
-  }
-  for (const auto& counter : m.blocks.counters) digest.add(counter.value), digest.add(counter.input);
-  digest.add(m.blocks.edges);
   for (const auto& h : m.handshakes) {
     digest.add(h.state), digest.add(h.number), digest.add(h.kind), digest.add(h.code);
     digest.add(h.value), digest.add(h.cycle), digest.add(h.failed);

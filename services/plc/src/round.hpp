@@ -23,7 +23,7 @@ using Changes = std::vector<RegisterValue>;
 Changes changes(const Registers& before, const Registers& after);
 /// R12, B7.
 std::string register_name(const RegisterValue& value);
-/// A number that differs when any timer, counter, edge, handshake or time differs.
+/// A number that differs when any variable, handshake or time differs.
 std::uint64_t state_digest(const Snapshot& snapshot);
 /// Identifies the layout of a snapshot's bytes.
 inline constexpr std::uint64_t snapshot_layout = (std::uint64_t{1} << 32) | sizeof(Snapshot);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tasks in Structured Text on the register image (libs/plc): their variables are part of the explicit
-// state.
+// The tasks on the register image (libs/plc), whatever language they are written in: their variables are part
+// of the explicit state.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace trunnion::plc {
 /// of a scan.
 enum class TaskName : std::uint32_t { fast, main, simulation };
 
-/// What the PLC runs: of each task an instruction list or a program in Structured Text.
+/// What the PLC runs.
 struct StructuredPrograms {
   std::shared_ptr<const st::ByteCode> code;
   std::uint64_t layout = 0;                           ///< st::Compilation::layout
@@ -59,8 +59,9 @@ class StructuredText {
            std::int64_t part = most_statements);
   /// That the last run() has executed.
   std::uint64_t statements() const { return static_cast<std::uint64_t>(machine_->statements()); }
-  /// In ms, as of the instruction list.
+  /// PLC time in ms at which the next running timer after `now` runs out.
   std::optional<std::uint64_t> next_timer_end(std::uint64_t now) const;
+  /// True when a timer has run out since the program last read it.
   bool timer_due(std::uint64_t now) const;
   /// file:line:column: what happened, in which task; empty without a fault.
   std::string fault_text(const ProgramVariables& variables) const;

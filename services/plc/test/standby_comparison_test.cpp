@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "plc/instruction_list/compiler.hpp"
+#include "programs.hpp"
 #include "round_recorder.hpp"
 
 namespace trunnion::plc {
@@ -40,9 +40,7 @@ std::shared_ptr<const machine::Parameters> revised_parameters(std::uint64_t revi
 
 PlcCore core_with(const std::string& program) {
   PlcCore core;
-  il::Compiler compiler(il::interface_symbols());
-  auto fast = compiler.compile("LD X16.1\nST Y17.0\n", "fast.il");
-  core.load(std::move(fast), compiler.compile(program, "main.il"));
+  core.load(translate({{"fast.il", "LD X16.1\nST Y17.0\n"}, {"main.il", program}}, true));
   return core;
 }
 

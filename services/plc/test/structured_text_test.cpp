@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tasks in Structured Text: the same as the instruction list they replace, their state, their faults.
+// Tasks in Structured Text: the same as the instruction list of the same machine, their state, their faults.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -42,7 +42,7 @@ PlcCore core_of(const std::string& source) {
   PlcCore core;
   core.configure(without_spindle(), true);
   StructuredPrograms programs{compiled.code, compiled.layout(), {std::nullopt, std::size_t{0}}};
-  core.load({}, {}, StructuredText(std::move(programs)));
+  core.load(StructuredText(std::move(programs)));
   return core;
 }
 

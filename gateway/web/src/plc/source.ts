@@ -59,12 +59,22 @@ function documentLines(source: string): SourceLine[] {
   });
 }
 
-export function sourceLines(source: string): SourceLine[] {
+/** The program of an instruction list, which has the name of its file; empty for other files. */
+export const listProgram = (file: string): string => /^(\w+)\.il$/.exec(file)?.[1] ?? "";
+
+/** The function block that an instruction with a number calls: TON 3, 500 calls ton_3. */
+function numberedBlock(line: string): string[] {
+  const [, name, number] = /(?:^|:)\s*(TON|TOF|CTU|R_TRIG|F_TRIG)\s+(\d+)/i.exec(line) ?? [];
+  return name === undefined || number === undefined ? [] : [`${name.toLowerCase()}_${number}.Q`];
+}
+
+/** `program`: that of an instruction list. */
+export function sourceLines(source: string, program = ""): SourceLine[] {
   if (isXml(source)) return documentLines(source);
   const lines = source.split("\n");
   const code = blanked(source).split("\n");
-  let unit = "";
-  let kind: SourceLine["kind"] = "";
+  let unit = program;
+  let kind: SourceLine["kind"] = program === "" ? "" : "PROGRAM";
   return lines.map((text, index) => {
     const line = code[index] ?? "";
     const begins = /^\s*(PROGRAM|FUNCTION_BLOCK|FUNCTION|TEST)\s+(\w*)/i.exec(line);
@@ -73,7 +83,7 @@ export function sourceLines(source: string): SourceLine[] {
       kind = word === "PROGRAM" || word === "FUNCTION_BLOCK" ? word : "";
       unit = kind === "" ? "" : begins[2]!;
     }
-    const names = begins ? [] : [...new Set(line.match(nameOf) ?? [])];
+    const names = begins ? [] : [...new Set([...(line.match(nameOf) ?? []), ...(program === "" ? [] : numberedBlock(line))])];
     const found = { text, names, unit, kind };
     if (/^\s*END_(PROGRAM|FUNCTION_BLOCK|FUNCTION|TEST)\b/i.test(line)) [unit, kind] = ["", ""];
     return found;
