@@ -127,13 +127,24 @@ TEST(ParameterFile, WrittenTextReadsBackTheSame) {
   }
 }
 
-TEST(Alarms, NumbersAndNamesAreUnique) {
+TEST(Alarms, NumbersAndNamesAreUniqueAndFindTheirAlarm) {
   std::map<std::uint32_t, int> numbers;
   std::map<std::string, int> names;
   for (const auto* one : alarm::all) {
     EXPECT_EQ(numbers[one->number]++, 0) << one->number;
     EXPECT_EQ(names[one->name]++, 0) << one->name;
-    EXPECT_TRUE(one->number < 1000 || one->number >= 2000) << "1000..1999 are the language's";
+    EXPECT_EQ(&alarm::numbered(one->number), one);
+  }
+  EXPECT_THROW(alarm::numbered(0), std::out_of_range);
+}
+
+TEST(Alarms, ThoseOfTheLanguageEndTheProgramAndNothingElse) {
+  EXPECT_STREQ(alarm::numbered(1001).text, "line longer than 16384 bytes");
+  for (const auto* one : alarm::all) {
+    if (one->number < 1000 || one->number > 1999) continue;
+    EXPECT_EQ(one->severity, Severity::error) << one->name;
+    EXPECT_EQ(one->reaction, Reaction::show) << one->name;
+    EXPECT_EQ(one->subject, Subject::channel) << one->name;
   }
 }
 
