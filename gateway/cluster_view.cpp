@@ -27,7 +27,7 @@ std::vector<std::uint16_t> drive_columns(const machine::Parameters& parameters) 
 
 }  // namespace
 
-ClusterView::ClusterView(bus::Bus& bus, std::string title)
+ClusterView::ClusterView(bus::Bus& bus, std::string title, FeedbackChange change)
     : announcements_(bus.reader(topics::announcement)),
       service_states_(bus.reader(topics::service_state)),
       alarms_(bus.reader(topics::alarm)),
@@ -45,7 +45,8 @@ ClusterView::ClusterView(bus::Bus& bus, std::string title)
       parameters_(bus.reader(topics::parameter_set)),
       tools_(bus.reader(topics::tool_table)),
       offsets_(bus.reader(topics::work_offsets)),
-      programs_(bus.reader(topics::program_list)) {
+      programs_(bus.reader(topics::program_list)),
+      change_(std::move(change)) {
   document_.set_title(std::move(title));
 }
 
@@ -73,6 +74,7 @@ void ClusterView::drain(double now) {
   if (cluster_.take_newest(cluster)) document_.apply(cluster);
   idl::stream::FeedbackFrame frame;
   while (feedback_.take(frame)) {
+    if (change_) change_(frame);
     document_.apply(frame);
     press_ = {frame.press_client, frame.press_number};
     ++frames_;

@@ -2,6 +2,7 @@
 // What a gateway knows of the cluster: the newest of every topic it shows.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -13,10 +14,13 @@
 
 namespace trunnion::gateway {
 
+/// Changes what the drive has said before anything of it is shown.
+using FeedbackChange = std::function<void(idl::stream::FeedbackFrame&)>;
+
 class ClusterView {
  public:
-  /// `title` of the machine, for display.
-  explicit ClusterView(bus::Bus& bus, std::string title = {});
+  /// `title` of the machine, for display. `change` is empty but in the tests of what compares gateways.
+  explicit ClusterView(bus::Bus& bus, std::string title = {}, FeedbackChange change = {});
   /// Takes what has come. `now` in monotonic seconds.
   void drain(double now);
   /// Everything as it is now; peaks and the trace start afresh with it. `operating` is that of
@@ -52,6 +56,7 @@ class ClusterView {
   bus::Reader<idl::parameters::WorkOffsets> offsets_;
   bus::Reader<idl::program::ProgramList> programs_;
 
+  FeedbackChange change_;
   StateDocument document_;
   AlarmHistory history_;
   Snapshot next_;

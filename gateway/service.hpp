@@ -31,6 +31,7 @@ struct GatewayOptions {
   std::uint16_t mtconnect_port = 0;  ///< 0 = no agent
   mtconnect::AgentSettings mtconnect;
   TlsFiles tls;
+  FeedbackChange change;  ///< as of ClusterView
 };
 
 class GatewayService : public service::Service {

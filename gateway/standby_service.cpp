@@ -47,8 +47,8 @@ Json running(const http_client::Server& gateway, bool executed) {
 
 }  // namespace
 
-StandbyService::StandbyService(service::Node& node, const http_client::Server& gateway)
-    : view_(node.bus()), gateway_(gateway) {
+StandbyService::StandbyService(service::Node& node, const http_client::Server& gateway, FeedbackChange change)
+    : view_(node.bus(), {}, std::move(change)), gateway_(gateway) {
   gateway_.timeout = 1;  // s
 }
 

@@ -7,8 +7,6 @@
 namespace trunnion::analysis {
 namespace {
 
-constexpr std::size_t bound_samples = 20000;
-
 struct Rates {
   AxisValues first{}, second{};
 };
@@ -34,8 +32,9 @@ double acceleration_bound(const std::vector<PathSample>& path, const motion::Lim
 }
 
 void AccelerationBound::add(const PathSample& sample) {
+  constexpr std::size_t window_samples = 20000;
   window_.push_back(sample);
-  if (window_.size() >= bound_samples) sweep(false);
+  if (window_.size() >= window_samples) sweep(false);
 }
 
 void AccelerationBound::slow(double speed) {

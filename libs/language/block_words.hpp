@@ -13,6 +13,8 @@
 
 namespace trunnion::language {
 
+inline constexpr double longest_dwell = 99999.999;  // seconds
+
 constexpr std::uint32_t group_bit(Group group) { return 1u << static_cast<unsigned>(group); }
 
 /// The G codes of a block, at most one of each group.

@@ -13,7 +13,6 @@ namespace {
 constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-constexpr std::uint64_t exact_mantissas = 1ull << 53;
 constexpr int most_digits = 15;  // 10^15 < 2^53
 
 }  // namespace
@@ -42,7 +41,8 @@ Decimal read_decimal(const char* begin, const char* end) {
   result.end = p;
   double magnitude = 0;
   if (digits <= most_digits) {
-    static_assert(powers_of_ten.size() > most_digits && exact_mantissas > 1000000000000000ull);
+    constexpr std::uint64_t exact_integers = 1ull << 53;
+    static_assert(powers_of_ten.size() > most_digits && exact_integers > 1000000000000000ull);
     magnitude = static_cast<double>(mantissa) / powers_of_ten[static_cast<std::size_t>(fraction)];
   } else {
     const auto parsed = std::from_chars(digits_begin, p, magnitude, std::chars_format::fixed);

@@ -10,7 +10,6 @@ namespace trunnion::language {
 namespace {
 
 constexpr double smallest_peck = 0.001;  // mm
-constexpr double longest_dwell = 99999.999;
 constexpr std::uint32_t most_holes = 9999;
 constexpr std::uint32_t spindle_stop = 5;  // M5
 

@@ -4,7 +4,6 @@
 namespace trunnion::language {
 namespace {
 
-constexpr double longest_pause = 99999.999;  // seconds
 constexpr std::uint32_t highest_skip_input = 4;
 
 }  // namespace
@@ -19,10 +18,10 @@ Fault Positioning::dwell(std::uint16_t at) {
     words_.use(letter);
     seconds = words_.value(letter);
     if (letter != 'P') continue;
-    if (const Fault fault = words_.dwell(longest_pause, seconds)) return fault;
+    if (const Fault fault = words_.dwell(longest_dwell, seconds)) return fault;
   }
   if (found == '\0') return {AlarmNumber::missing_word, at, "needs P, X or U"};
-  if (seconds < 0 || seconds > longest_pause) return {AlarmNumber::value_range, words_.offset(found)};
+  if (seconds < 0 || seconds > longest_dwell) return {AlarmNumber::value_range, words_.offset(found)};
   output_.push(CommandKind::dwell).dwell_seconds = seconds;
   return {};
 }

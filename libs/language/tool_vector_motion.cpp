@@ -9,8 +9,6 @@
 namespace trunnion::language {
 namespace {
 
-constexpr double no_vector = 1e-9;
-
 AxisValues point_on_line(const AxisValues& start, const AxisValues& target, double share) {
   AxisValues point = start;
   for (std::size_t axis = 0; axis < axis_count; ++axis) point[axis] += share * (target[axis] - start[axis]);
@@ -58,8 +56,9 @@ Fault ToolVectorMotion::read(std::optional<Vector3>& direction, std::uint16_t& a
     at = words_.offset(letter);
     words[i] = words_.value(letter);
   }
+  constexpr double no_length = 1e-9;
   const double size = std::hypot(words[0], words[1], words[2]);
-  if (!(size > no_vector)) return {AlarmNumber::tool_vector_zero, at};
+  if (!(size > no_length)) return {AlarmNumber::tool_vector_zero, at};
   for (double& word : words) word /= size;
   direction = state_.frame().turned_by_tilt(words);
   return {};

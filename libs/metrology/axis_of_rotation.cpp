@@ -12,7 +12,6 @@
 namespace trunnion::metrology {
 namespace {
 
-constexpr int most_axis_steps = 50;
 constexpr std::size_t most_searched = 60;  // centres among which the widest triangle is searched
 
 double degrees_between(const Vec3& a, const Vec3& b) {
@@ -76,7 +75,8 @@ std::variant<AxisFit, AxisError> fit_axis(const std::vector<TurnedCentre>& centr
   Eigen::MatrixXd jacobian(rows, 6);
   Eigen::VectorXd deviations(rows);
   Vec3 across = Vec3::Zero(), other = Vec3::Zero();
-  for (int step = 0; step < most_axis_steps; ++step) {
+  constexpr int most_steps = 50;
+  for (int step = 0; step < most_steps; ++step) {
     across = fit.direction.unitOrthogonal();
     other = fit.direction.cross(across);
     for (std::size_t i = 0; i < n; ++i) {

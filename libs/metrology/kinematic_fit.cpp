@@ -22,7 +22,6 @@ constexpr double least_singular = 1e-4;  // below it, relative, the poses do not
 // A component that changes less than this when a vector slides along its axis by 1 does not fix the slide;
 // axes are a few mrad beside their ideal direction at most.
 constexpr double fixes = 0.05;
-constexpr int most_fit_steps = 40;
 constexpr int structural_poses = 40;
 
 // The unknowns in their order: of each axis offset X Y Z and two tilts of its direction, then the sphere.
@@ -287,6 +286,7 @@ std::variant<KinematicFit, FitError> fit_kinematics(const ChainParameters& start
   MatrixXd residual;
   Eigen::JacobiSVD<MatrixXd> svd;
   Index rank = 0;
+  constexpr int most_steps = 40;
   for (int step = 0;; ++step) {
     const VectorXd x = fixed + span * y;
     const auto predicted = predict(unknowns.chain(x), sphere + x.tail<3>(), poses, tool_length);
@@ -304,7 +304,7 @@ std::variant<KinematicFit, FitError> fit_kinematics(const ChainParameters& start
     const VectorXd change =
         svd.matrixV().leftCols(rank) *
         (svd.matrixU().leftCols(rank).transpose() * residual).cwiseQuotient(svd.singularValues().head(rank));
-    if (!change.allFinite() || step > most_fit_steps) return FitError::diverged;
+    if (!change.allFinite() || step > most_steps) return FitError::diverged;
     if (change.norm() < 1e-9) break;
     y += change;
   }

@@ -11,7 +11,6 @@ namespace {
 
 // Of the directions from the centre to the touches: below it one direction is hardly seen.
 constexpr double least_singular_value = 1e-4;
-constexpr int most_sphere_steps = 50;
 
 }  // namespace
 
@@ -45,6 +44,7 @@ std::variant<SphereFit, SphereError> fit_sphere(const std::vector<Vec3>& tips, s
   const Eigen::Index unknowns = radius ? 3 : 4;
   Eigen::MatrixXd jacobian(rows, unknowns);
   Eigen::VectorXd distances(rows);
+  constexpr int most_steps = 50;
   for (int step = 0;; ++step) {
     for (Eigen::Index i = 0; i < rows; ++i) {
       const Vec3 arm = tips[static_cast<std::size_t>(i)] - fit.centre;
@@ -55,7 +55,7 @@ std::variant<SphereFit, SphereError> fit_sphere(const std::vector<Vec3>& tips, s
       if (!radius) jacobian(i, 3) = -1;
     }
     const Eigen::VectorXd change = geometry::least_squares(jacobian, distances);
-    if (!change.allFinite() || step > most_sphere_steps) return SphereError::no_sphere;
+    if (!change.allFinite() || step > most_steps) return SphereError::no_sphere;
     fit.centre -= change.head<3>();
     if (!radius) fit.radius -= change[3];
     if (change.norm() <= 1e-12 * (spread + fit.centre.norm())) break;

@@ -11,8 +11,6 @@ namespace {
 constexpr double sample_time = 2.5e-4;
 // Samples are set up to this time ahead, s of the plan.
 constexpr double horizon = 0.06;
-// Shares of the limits used where the plan itself uses no more; the rest is for what lies between samples.
-constexpr double braking_share = 0.997, braking_jerk_share = 0.99;
 // Shares of the strongest braking of a cycle that are tried.
 constexpr std::array<double, 6> shares{1, 0.8, 0.6, 0.4, 0.2, 0.05};
 constexpr double offset_rounding = 1e-9;
@@ -104,12 +102,15 @@ bool PlanBraking::range(const Rate& at, double half, std::uint64_t& first, Range
   const double fastest = std::max(r0, r1), end = at.time + half * fastest;
   while (first + 1 < filled_ && samples_[(first + 1) % ring].time <= at.time) ++first;
   bend = {-most_bend, most_bend};
+  // Shares of the limits used where the plan itself uses no more; the rest is for what lies between samples.
+  constexpr double acceleration_share = 0.997, jerk_share = 0.99;
   for (std::uint64_t n = first; n < filled_; ++n) {
     const Sample& sample = samples_[n % ring];
     for (int i = 0; i < sample.count; ++i) {
       const AxisSample& q = sample.axes[static_cast<std::size_t>(i)];
-      const double acceleration = std::max(braking_share, fastest * fastest * std::abs(q.acceleration_a));
-      const double jerk = std::max(braking_jerk_share, fastest * fastest * fastest * std::abs(q.jerk_j));
+      const double acceleration =
+          std::max(acceleration_share, fastest * fastest * std::abs(q.acceleration_a));
+      const double jerk = std::max(jerk_share, fastest * fastest * fastest * std::abs(q.jerk_j));
       narrow_offset(bend, r0 * r0 * r0 * q.jerk_j + 3 * r0 * at.slope * q.acceleration_j, q.speed_j, jerk);
       narrow_offset(bend, r1 * r1 * r1 * q.jerk_j + 3 * r1 * at.slope * q.acceleration_j,
                     q.speed_j + 3 * r1 * half * q.acceleration_j, jerk);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/cell_builder.hpp"
+
 namespace trunnion::motion {
 namespace {
 
@@ -52,7 +54,8 @@ void PlannedSpeed::clear() {
 }
 
 PlannedSpeed::Demand PlannedSpeed::demand_of(const Overrides& overrides, const LimitCell& cell) {
-  const double feed = std::clamp(overrides.feed, 0.0, 1.5), rapid = std::clamp(overrides.rapid, 0.0, 1.0);
+  const double feed = std::clamp(overrides.feed, 0.0, highest_override),
+               rapid = std::clamp(overrides.rapid, 0.0, 1.0);
   return {feed, rapid, overrides.hold || (cell.rapid ? rapid <= 0 : feed <= 0)};
 }
 

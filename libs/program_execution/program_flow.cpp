@@ -19,6 +19,10 @@ std::string place(std::uint32_t program, std::uint32_t line) {
   return name + std::to_string(line);
 }
 
+const machine::AlarmDefinition& definition_of(language::AlarmNumber number) {
+  return alarm::numbered(static_cast<std::uint32_t>(number));
+}
+
 constexpr double least_motion = 0.01;  // mm or degrees
 
 bool is_path(CommandKind kind) {
@@ -52,14 +56,12 @@ void ProgramFlow::start(motion::Trajectory& trajectory, language::TextSource& te
   const bool rtcp = initial.transformation == language::Transformation::rtcp;
   extent_ =
       channel_setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position, initial.tool_length) : position);
-  alarm_number_ = 0;
-  machine_alarm_ = nullptr;
+  alarm_ = nullptr;
   alarm_text_.clear();
 }
 
 FlowState ProgramFlow::fail(const machine::AlarmDefinition& alarm, const std::string& text) {
-  alarm_number_ = alarm.number;
-  machine_alarm_ = &alarm;
+  alarm_ = &alarm;
   alarm_text_ = text;
   trajectory_->finish();
   return FlowState::alarm;
@@ -139,11 +141,7 @@ void ProgramFlow::refuse_pending(language::AlarmNumber number) {
 }
 
 FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text) {
-  alarm_number_ = static_cast<std::uint32_t>(number);
-  machine_alarm_ = nullptr;
-  alarm_text_ = place(command_.program, command_.line) + ": " + std::string(text);
-  trajectory_->finish();
-  return FlowState::alarm;
+  return fail(definition_of(number), place(command_.program, command_.line) + ": " + std::string(text));
 }
 
 // A skip move has ended, now or before the restart: the interpreter continues from where it ended.
@@ -205,13 +203,11 @@ FlowState ProgramFlow::take_step(language::Step step) {
       return FlowState::end;
     case language::Step::alarm: {
       const auto& alarm = interpreter_.alarm();
-      alarm_number_ = static_cast<std::uint32_t>(alarm.number);
-      alarm_text_ =
+      auto text =
           place(alarm.program, alarm.line) + ":" + std::to_string(alarm.column) + ": " + alarm.text.data();
       for (std::size_t k = alarm.calls; k-- > 0;)
-        alarm_text_ += ", called from " + place(alarm.chain[k].program, alarm.chain[k].line);
-      trajectory_->finish();
-      return FlowState::alarm;
+        text += ", called from " + place(alarm.chain[k].program, alarm.chain[k].line);
+      return fail(definition_of(alarm.number), text);
     }
   }
   return FlowState::waiting;

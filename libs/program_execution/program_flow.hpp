@@ -29,7 +29,7 @@ enum class FlowState {
   loop,       ///< lines_of_loop and more lines without a motion: at rest read_on() continues with them
   found,      ///< the line to start from comes next: executing() and position() are the state it begins in
   end,        ///< program finished
-  alarm,      ///< alarm_number(), alarm_text()
+  alarm,      ///< alarm(), alarm_text()
 };
 
 /// The point of a program from which a restart continues.
@@ -137,9 +137,9 @@ class ProgramFlow {
   const AuxiliaryMemory& auxiliaries() const { return auxiliaries_; }
   /// Machine coordinates the moves handed to motion go through, since the start with an offset.
   const channel_setup::AxisBox& extent() const { return extent_; }
-  /// Number of the alarm, and the alarm itself when it is none of the NC language, else null.
-  std::uint32_t alarm_number() const { return alarm_number_; }
-  const machine::AlarmDefinition* machine_alarm() const { return machine_alarm_; }
+  /// Of FlowState::alarm; its number is 0 before.
+  const machine::AlarmDefinition& alarm() const { return *alarm_; }
+  std::uint32_t alarm_number() const { return alarm_ == nullptr ? 0 : alarm_->number; }
   const std::string& alarm_text() const { return alarm_text_; }
   /// Commands up to the restart point, or the line, are being skipped.
   bool searching() const { return search_ != Search::none; }
@@ -184,8 +184,7 @@ class ProgramFlow {
   std::vector<SkipResult> skips_;
   std::size_t skips_read_ = 0;
 
-  std::uint32_t alarm_number_ = 0;
-  const machine::AlarmDefinition* machine_alarm_ = nullptr;
+  const machine::AlarmDefinition* alarm_ = nullptr;
   std::string alarm_text_;
 };
 

@@ -40,18 +40,11 @@ void AlarmBoard::raise(const machine::AlarmDefinition& alarm, std::uint32_t part
   publish(entry);
 }
 
-void AlarmBoard::raise_number(std::uint32_t number, std::uint32_t part, const std::string& text,
-                              std::uint64_t cycle) {
-  auto& entry = entries_[{number, part}];
-  entry.cause = false;
-  auto& a = entry.alarm;
-  a.instance = instance_, a.number = number, a.part = part;
-  a.severity = idl::service::Severity::ERROR;
-  a.reaction = idl::service::Reaction::SHOW;
-  a.source = service_, a.text = cut(text), a.cycle = cycle;
-  a.active = true;
-  ++a.occurrences;
-  publish(entry);
+void AlarmBoard::report(const machine::AlarmDefinition& alarm, std::uint32_t part, const std::string& text,
+                        std::uint64_t cycle) {
+  clear(alarm, part);
+  raise(alarm, part, text, cycle);
+  release(alarm, part);
 }
 
 void AlarmBoard::release(const machine::AlarmDefinition& alarm, std::uint32_t part) {

@@ -19,10 +19,9 @@ class AlarmBoard {
   /// Raises (or repeats) an alarm of machine/alarm_constants.hpp about `part` (axis, channel, instance).
   void raise(const machine::AlarmDefinition& alarm, std::uint32_t part, const std::string& text,
              std::uint64_t cycle = 0);
-  /// The same for alarms of the NC language, which carry their own number; always an error that stops the
-  /// program.
-  void raise_number(std::uint32_t number, std::uint32_t part, const std::string& text,
-                    std::uint64_t cycle = 0);
+  /// Raises an alarm whose cause is over at once: news also when the same one is still shown.
+  void report(const machine::AlarmDefinition& alarm, std::uint32_t part, const std::string& text,
+              std::uint64_t cycle = 0);
   /// The cause is gone; the alarm stays until it is reset.
   void release(const machine::AlarmDefinition& alarm, std::uint32_t part);
   /// Inactive at once, for causes that the operator need not acknowledge.

@@ -344,18 +344,10 @@ void ChannelService::read_on() {
   read_on_at_ = now + (now - began);
 }
 
-// An event is news also when the same one is still shown: it is published each time.
 void ChannelService::report_events() {
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
-  for (const auto& event : core_.take_events()) {
-    if (event.alarm == nullptr) {
-      node_.alarms().raise_number(event.number, channel, event.text, core_.link().executed());
-      continue;
-    }
-    node_.alarms().clear(*event.alarm, channel);
-    node_.alarms().raise(*event.alarm, channel, event.text, core_.link().executed());
-    node_.alarms().release(*event.alarm, channel);
-  }
+  for (const auto& event : core_.take_events())
+    node_.alarms().report(*event.alarm, channel, event.text, core_.link().executed());
   if (!core_.held_at_line()) node_.alarms().clear(alarm::search_done, channel);
 }
 

@@ -339,3 +339,14 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { t
     de: { text: "Der Partner einer Gantry-Achse hat einen Alarm seines Antriebs", cause: "Der Antrieb der anderen Seite der Gantry hat angehalten, und dieser mit ihm (10a943)", remedy: "Die Ursache an der Achse des Alarms 114 beheben, dann zurücksetzen" },
   },
 };
+
+/** The alarms of the NC language, whose texts name place and cause: what the operator does, by the language. */
+export const languageAlarms: { first: number; last: number; remedy: Readonly<Record<string, string>> } = {
+  first: 1000,
+  last: 1999,
+  remedy: {
+    en: "Correct the line that the text names, then start again.",
+    zh: "修改文本所指的程序行，然后重新启动。",
+    de: "Die im Text genannte Zeile berichtigen, dann neu starten.",
+  },
+};

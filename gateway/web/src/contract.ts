@@ -1004,3 +1004,10 @@ export interface ChannelCommands {
   "parts": { parts: number; };
   "tool-in-spindle": { tool: number; };
 }
+
+/** What POST /api/channels/{channel}/override accepts as value, by the kind. */
+export const overrideLimits = {
+  feed: { minimum: 0, maximum: 1.5 },
+  rapid: { minimum: 0, maximum: 1 },
+  spindle: { minimum: 0.5, maximum: 1.5 },
+};

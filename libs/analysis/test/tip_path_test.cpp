@@ -10,20 +10,20 @@
 
 #include "analysis/program_run.hpp"
 
-namespace trunnion::analysis {
+namespace trunnion::analysis::tip_path_test {
 namespace {
 
 using geometry::Vec3;
 using language::CommandKind;
 
-struct TipPiece {
+struct Piece {
   AxisValues start{};
   language::Command command;
   Vec3 from() const { return {start[0], start[1], start[2]}; }
   Vec3 to() const { return {command.target[0], command.target[1], command.target[2]}; }
 };
 
-double from_line(const TipPiece& piece, const Vec3& tip) {
+double from_line(const Piece& piece, const Vec3& tip) {
   const Vec3 way = piece.to() - piece.from();
   const double length = way.squaredNorm();
   const double share = length > 0 ? std::clamp((tip - piece.from()).dot(way) / length, 0.0, 1.0) : 0;
@@ -32,7 +32,7 @@ double from_line(const TipPiece& piece, const Vec3& tip) {
 
 // Arcs of these programs lie in XY about a centre, with the same radius at both ends. The angle that the tip
 // has gone tells how far a helix has risen.
-double from_helix(const TipPiece& piece, const Vec3& tip) {
+double from_helix(const Piece& piece, const Vec3& tip) {
   const auto& arc = piece.command.arc;
   const auto angle = [&](const Vec3& p) { return std::atan2(p.y() - arc.centre[1], p.x() - arc.centre[0]); };
   const double radius = std::hypot(piece.start[0] - arc.centre[0], piece.start[1] - arc.centre[1]);
@@ -60,7 +60,7 @@ Measured measure(const std::string& machine, const std::string& text, double cle
   channel_setup::ChannelSetup setup(
       tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/" + machine));
   language::StringSource source(text);
-  std::map<std::uint32_t, TipPiece> pieces;
+  std::map<std::uint32_t, Piece> pieces;
   AxisValues end{}, last{};
   double tool_length = 0;
   Measured result;
@@ -69,7 +69,7 @@ Measured measure(const std::string& machine, const std::string& text, double cle
       [&](const PlannedCycle& cycle) {
         const auto found = pieces.find(cycle.setpoint->sequence);
         if (found == pieces.end() || cycle.machine == last) return;
-        const TipPiece& piece = found->second;
+        const Piece& piece = found->second;
         const AxisValues at = setup.tip_from_machine(cycle.machine, tool_length);
         const Vec3 tip(at[0], at[1], at[2]);
         if (clear == 0 || ((tip - piece.from()).norm() > clear && (tip - piece.to()).norm() > clear)) {
@@ -161,4 +161,4 @@ INSTANTIATE_TEST_SUITE_P(Machines, TipPath,
                          });
 
 }  // namespace
-}  // namespace trunnion::analysis
+}  // namespace trunnion::analysis::tip_path_test

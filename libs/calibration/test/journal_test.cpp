@@ -7,7 +7,7 @@
 
 #include "testing_support/refusal.hpp"
 
-namespace trunnion::calibration {
+namespace trunnion::calibration::journal_test {
 namespace {
 
 std::string entry(const char* time, const char* who, int number, double before, double after) {
@@ -16,7 +16,7 @@ std::string entry(const char* time, const char* who, int number, double before, 
          std::to_string(after) + "}\n";
 }
 
-std::string journal_fault(const std::string& journal) {
+std::string fault(const std::string& journal) {
   return testing_support::refusal_of([&] { last_calibration(journal); });
 }
 
@@ -44,13 +44,13 @@ TEST(Journal, TwoCalibrationsOfTheSameSecondAreTwo) {
 
 TEST(Journal, NothingIsUndoneTwiceOrOverALaterChange) {
   const std::string calibrated = entry("T1", "ann calibrate", 40433, 0, 0.1);
-  EXPECT_EQ(journal_fault(""), "the journal has no calibration");
-  EXPECT_EQ(journal_fault(calibrated), "taken");
-  EXPECT_EQ(journal_fault(calibrated + entry("T2", "ann calibrate undo", 40433, 0.1, 0)),
+  EXPECT_EQ(fault(""), "the journal has no calibration");
+  EXPECT_EQ(fault(calibrated), "taken");
+  EXPECT_EQ(fault(calibrated + entry("T2", "ann calibrate undo", 40433, 0.1, 0)),
             "the last calibration was undone already, at T2");
-  EXPECT_EQ(journal_fault(calibrated + entry("T2", "ann", 40433, 0.1, 0.15)),
+  EXPECT_EQ(fault(calibrated + entry("T2", "ann", 40433, 0.1, 0.15)),
             "parameter 040433 was changed after the calibration of T1; nothing undone");
 }
 
 }  // namespace
-}  // namespace trunnion::calibration
+}  // namespace trunnion::calibration::journal_test

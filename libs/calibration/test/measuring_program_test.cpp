@@ -8,7 +8,7 @@
 #include "geometry/test/machines.hpp"
 #include "true_machine.hpp"
 
-namespace trunnion::calibration {
+namespace trunnion::calibration::measuring_program_test {
 namespace {
 
 // The straight moves of a program: X, Y and Z of each G53 G1 line.
@@ -22,13 +22,13 @@ std::vector<Vec3> moves_of(const std::string& program) {
   return moves;
 }
 
-struct ProgramCase {
+struct Case {
   Positioning positioning;
   std::size_t touches;
   Vec3 shaft;
 };
 
-class MeasuringProgram : public testing::TestWithParam<ProgramCase> {};
+class MeasuringProgram : public testing::TestWithParam<Case> {};
 
 TEST_P(MeasuringProgram, NeverComesNearerToSphereOrShaftThanTheMeasuringPath) {
   const TrueMachine machine(geometry::ac_table(), geometry::ac_table());
@@ -64,10 +64,10 @@ TEST_P(MeasuringProgram, NeverComesNearerToSphereOrShaftThanTheMeasuringPath) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, MeasuringProgram,
-                         testing::Values(ProgramCase{Positioning::paraxial, 10, {0, 0, -1}},
-                                         ProgramCase{Positioning::circular, 10, {0, 0, -1}},
-                                         ProgramCase{Positioning::circular, 8, {0, -1, -1}},
-                                         ProgramCase{Positioning::paraxial, 8, {1, 0, -1}}));
+                         testing::Values(Case{Positioning::paraxial, 10, {0, 0, -1}},
+                                         Case{Positioning::circular, 10, {0, 0, -1}},
+                                         Case{Positioning::circular, 8, {0, -1, -1}},
+                                         Case{Positioning::paraxial, 8, {1, 0, -1}}));
 
 // The sphere may be 4 mm beside its place: nothing but a touch comes nearer than 5 mm, and a touch ends 2 mm
 // behind the expected surface.
@@ -181,4 +181,4 @@ TEST(MeasuringProgramText, ReadsTouchesFromTheVariablesAndNamesAMissingOne) {
 }
 
 }  // namespace
-}  // namespace trunnion::calibration
+}  // namespace trunnion::calibration::measuring_program_test

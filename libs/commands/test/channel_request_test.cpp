@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every command over HTTP and on the command line, as it was before both came from one table.
 #include "commands/channel_request.hpp"
+#include "commands/override_limits.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -264,6 +265,20 @@ TEST(OperatorCommands, ARequestOfAnyClientIsHeldAgainstTheLimits) {
   EXPECT_NE(outside_limits({.command = CommandKind::JOG_AXIS, .speed = 0}), "");
   EXPECT_NE(outside_limits({.command = CommandKind::JOG_AXIS, .speed = 1, .increment = std::nan("")}), "");
   EXPECT_NE(outside_limits({.command = CommandKind::START_FROM_LINE, .line = 0}), "");
+}
+
+TEST(OperatorCommands, AnOverrideWithinItsLimitsIsAccepted) {
+  const auto refusal = [](CommandKind kind, double fraction) {
+    return outside_limits({.command = kind, .fraction = fraction});
+  };
+  for (const auto& [kind, limits] : {std::pair{CommandKind::FEED_OVERRIDE, feed_override},
+                                     std::pair{CommandKind::RAPID_OVERRIDE, rapid_override},
+                                     std::pair{CommandKind::SPINDLE_OVERRIDE, spindle_override}}) {
+    EXPECT_EQ(refusal(kind, limits.clamp(-1)), "");
+    EXPECT_EQ(refusal(kind, limits.clamp(9)), "");
+    EXPECT_NE(refusal(kind, limits.clamp(-1) - 0.01), "");
+    EXPECT_NE(refusal(kind, limits.clamp(9) + 0.01), "");
+  }
 }
 
 TEST(OperatorCommands, NamesThatCouldLeaveTheStoreAreRefused) {

@@ -6,7 +6,7 @@
 #include "machine/machine.hpp"
 #include "testing_support/refusal.hpp"
 
-namespace trunnion::machine {
+namespace trunnion::machine::hosts_test {
 namespace {
 
 const std::string three_hosts =
@@ -24,7 +24,7 @@ std::string services(
          kinematics + "\n  - {service: channel}\nopen: true\n";
 }
 
-std::string hosts_error_of(const std::string& yaml) {
+std::string error_of(const std::string& yaml) {
   return testing_support::refusal_of([&] { parse_machine(yaml, "m"); });
 }
 
@@ -47,17 +47,17 @@ TEST(Hosts, NeedSecurityOrTheStatementThatTheNetworkIsOpen) {
   EXPECT_TRUE(parse_machine(text, "m").open);
   text.resize(text.find("open: true"));
   EXPECT_EQ(
-      hosts_error_of(text),
+      error_of(text),
       "m/machine.yaml:3:3: error: every computer in the network of these hosts could move the machine: add "
       "'security: on' (docs/security.md), or 'open: true' when the network is yours alone");
-  EXPECT_EQ(hosts_error_of(text + "security: on\n"), "taken");
+  EXPECT_EQ(error_of(text + "security: on\n"), "taken");
 }
 
 TEST(Hosts, DirectoriesForSwapsAreAbsoluteOrBesideTheMachine) {
   const auto config =
       parse_machine(three_hosts + services() + "swap_directories: [/opt/stages, stages]\n", "m");
   EXPECT_EQ(config.swap_directories, (std::vector<std::string>{"/opt/stages", "m/stages"}));
-  EXPECT_EQ(hosts_error_of(three_hosts + services() + "swap_directories: here\n"),
+  EXPECT_EQ(error_of(three_hosts + services() + "swap_directories: here\n"),
             "m/machine.yaml:16:19: error: 'swap_directories' must be a list of directories");
 }
 
@@ -84,28 +84,27 @@ TEST(Hosts, SecurityIsOffOrADirectoryBesideTheMachineOrElsewhere) {
 
 TEST(Hosts, EachMistakeIsOneLineWithItsPlace) {
   // Counted from the texts above: the list of services begins in line 6, the drive is its fourth entry.
-  EXPECT_EQ(hosts_error_of(three_hosts + services("{service: drive, host: driver}")),
+  EXPECT_EQ(error_of(three_hosts + services("{service: drive, host: driver}")),
             "m/machine.yaml:10:28: error: unknown host 'driver': there is control, motion, drives");
-  EXPECT_EQ(hosts_error_of("name: m\n" + services()),
-            "m/machine.yaml:6:28: error: there is no section 'hosts'");
-  EXPECT_EQ(hosts_error_of(three_hosts + services("{service: drive}",
-                                                  "{service: kinematics, replicas: 2, host: [motion]}")),
+  EXPECT_EQ(error_of("name: m\n" + services()), "m/machine.yaml:6:28: error: there is no section 'hosts'");
+  EXPECT_EQ(error_of(three_hosts +
+                     services("{service: drive}", "{service: kinematics, replicas: 2, host: [motion]}")),
             "m/machine.yaml:13:46: error: replica 1 has no host");
-  EXPECT_EQ(hosts_error_of(three_hosts + "  - {name: motion, address: 10.77.0.4}\n" + services()),
+  EXPECT_EQ(error_of(three_hosts + "  - {name: motion, address: 10.77.0.4}\n" + services()),
             "m/machine.yaml:6:12: error: host 'motion' is there twice");
-  EXPECT_EQ(hosts_error_of(three_hosts + "  - {name: fourth, address: 10.77.0.3}\n" + services()),
+  EXPECT_EQ(error_of(three_hosts + "  - {name: fourth, address: 10.77.0.3}\n" + services()),
             "m/machine.yaml:6:29: error: address 10.77.0.3 is that of host 'drives'");
-  EXPECT_EQ(hosts_error_of(three_hosts + "  - {name: fourth, address: fourth.local}\n" + services()),
+  EXPECT_EQ(error_of(three_hosts + "  - {name: fourth, address: fourth.local}\n" + services()),
             "m/machine.yaml:6:29: error: 'fourth.local' is not an IPv4 address");
-  EXPECT_EQ(hosts_error_of(three_hosts + "  - {name: ../x, address: 10.77.0.4}\n" + services()),
+  EXPECT_EQ(error_of(three_hosts + "  - {name: ../x, address: 10.77.0.4}\n" + services()),
             "m/machine.yaml:6:12: error: a host's name has 1 .. 32 letters, digits and dashes");
-  EXPECT_EQ(hosts_error_of(three_hosts + "  - {name: fourth}\n" + services()),
+  EXPECT_EQ(error_of(three_hosts + "  - {name: fourth}\n" + services()),
             "m/machine.yaml:6:5: error: a host is {name: ..., address: ...}");
-  EXPECT_EQ(hosts_error_of("name: m\nhosts: here\n" + services()),
+  EXPECT_EQ(error_of("name: m\nhosts: here\n" + services()),
             "m/machine.yaml:2:8: error: 'hosts' must be a list of {name: ..., address: ...}");
-  EXPECT_EQ(hosts_error_of(three_hosts + "network: broadcast\n" + services()),
+  EXPECT_EQ(error_of(three_hosts + "network: broadcast\n" + services()),
             "m/machine.yaml:6:10: error: network must be 'unicast' or 'multicast'");
 }
 
 }  // namespace
-}  // namespace trunnion::machine
+}  // namespace trunnion::machine::hosts_test

@@ -10,7 +10,7 @@
 #include "machine/alarm_constants.hpp"
 #include "machine/axes.hpp"
 
-namespace trunnion::machine {
+namespace trunnion::machine::parameters_test {
 namespace {
 
 TEST(Catalogue, NumbersFollowClassUnitAndOffset) {
@@ -74,7 +74,7 @@ std::string file_with(const std::string& text) {
   return path;
 }
 
-std::string file_error_of(const std::string& text) {
+std::string error_of(const std::string& text) {
   try {
     read_parameter_file(file_with(text));
   } catch (const std::runtime_error& e) {
@@ -101,13 +101,13 @@ TEST(ParameterFile, EveryErrorIsNamedAndTheRestIsRead) {
 }
 
 TEST(ParameterFile, ErrorsNameLineAndColumn) {
-  EXPECT_EQ(file_error_of("\"100900\": 60\n\"100901\": fast\n"),
+  EXPECT_EQ(error_of("\"100900\": 60\n\"100901\": fast\n"),
             "parameters.yaml:2:11: error: parameter 100901 (speed_gain): 'fast' is not a number");
-  EXPECT_EQ(file_error_of("\"1009\": 60\n"),
+  EXPECT_EQ(error_of("\"1009\": 60\n"),
             "parameters.yaml:1:1: error: '1009' is not a parameter number of six digits");
-  EXPECT_EQ(file_error_of("\"100900\": 0\n"),
+  EXPECT_EQ(error_of("\"100900\": 0\n"),
             "parameters.yaml:1:11: error: parameter 100900 (position_gain): 0 is outside 1 .. 1000 1/s");
-  EXPECT_NE(file_error_of("\"100900\": [1\n").find("parameters.yaml:2:1: error:"), std::string::npos);
+  EXPECT_NE(error_of("\"100900\": [1\n").find("parameters.yaml:2:1: error:"), std::string::npos);
 }
 
 TEST(Catalogue, ATextThatCouldNotBeReadBackIsRefused) {
@@ -127,13 +127,24 @@ TEST(ParameterFile, WrittenTextReadsBackTheSame) {
   }
 }
 
-TEST(Alarms, NumbersAndNamesAreUnique) {
+TEST(Alarms, NumbersAndNamesAreUniqueAndFindTheirAlarm) {
   std::map<std::uint32_t, int> numbers;
   std::map<std::string, int> names;
   for (const auto* one : alarm::all) {
     EXPECT_EQ(numbers[one->number]++, 0) << one->number;
     EXPECT_EQ(names[one->name]++, 0) << one->name;
-    EXPECT_TRUE(one->number < 1000 || one->number >= 2000) << "1000..1999 are the language's";
+    EXPECT_EQ(&alarm::numbered(one->number), one);
+  }
+  EXPECT_THROW(alarm::numbered(0), std::out_of_range);
+}
+
+TEST(Alarms, ThoseOfTheLanguageEndTheProgramAndNothingElse) {
+  EXPECT_STREQ(alarm::numbered(1001).text, "line longer than 16384 bytes");
+  for (const auto* one : alarm::all) {
+    if (one->number < 1000 || one->number > 1999) continue;
+    EXPECT_EQ(one->severity, Severity::error) << one->name;
+    EXPECT_EQ(one->reaction, Reaction::show) << one->name;
+    EXPECT_EQ(one->subject, Subject::channel) << one->name;
   }
 }
 
@@ -165,4 +176,4 @@ TEST(Catalogue, LimitsAreWrittenInFull) {
 }
 
 }  // namespace
-}  // namespace trunnion::machine
+}  // namespace trunnion::machine::parameters_test

@@ -7,23 +7,23 @@
 #include <cmath>
 #include <vector>
 
-namespace trunnion::motion {
+namespace trunnion::motion::plan_braking_test {
 namespace {
 
-constexpr double period = 0.001, strongest = 3000, steepest = 60000, speed = 40;
+constexpr double cycle = 0.001, acceleration = 3000, jerk = 60000, speed = 40;
 
 // One axis along a straight stretch of 100 mm.
 SpeedStage straight_stage() {
   LimitCell cell;
   cell.end = 100;
   cell.speed = cell.top = cell.feed = cell.reachable = 500;
-  cell.ramps.fill({strongest, steepest});
+  cell.ramps.fill({acceleration, jerk});
   cell.uniform = cell.dense = true;
   cell.known_axes = 1;
   cell.axes[0].begin = cell.axes[0].end = {1, 0, 0};
-  cell.axes[0].acceleration = static_cast<float>(strongest);
-  cell.axes[0].jerk = static_cast<float>(steepest);
-  SpeedStage stage(period);
+  cell.axes[0].acceleration = static_cast<float>(acceleration);
+  cell.axes[0].jerk = static_cast<float>(jerk);
+  SpeedStage stage(cycle);
   stage.cells().push(cell);
   stage.set_finished(true);
   stage.extended();
@@ -32,7 +32,7 @@ SpeedStage straight_stage() {
 
 SpeedPlan constant_plan(double length) {
   const SpeedPiece piece{0, length, speed * speed, 0, 0},
-      last{length, 2 * speed * period, speed * speed, 0, 0};
+      last{length, 2 * speed * cycle, speed * speed, 0, 0};
   SpeedPlan plan;
   EXPECT_TRUE(plan.replace(0, {piece}, last));
   return plan;
@@ -49,7 +49,7 @@ Braked run(SpeedStage& stage, SpeedPlan& plan, int hold, int cycles) {
   braking.start(plan, stage);
   Braked result{{stage.state()}, 1};
   for (int k = 0; k < cycles; ++k) {
-    stage.place(braking.step(plan, stage, period, k < hold));
+    stage.place(braking.step(plan, stage, cycle, k < hold));
     result.states.push_back(stage.state());
   }
   result.rate = braking.rate();
@@ -60,11 +60,11 @@ Braked run(SpeedStage& stage, SpeedPlan& plan, int hold, int cycles) {
 void expect_within_limits(const std::vector<PathState>& states) {
   for (std::size_t k = 1; k < states.size(); ++k) {
     const PathState &from = states[k - 1], &to = states[k];
-    ASSERT_LE(std::abs(to.a), strongest * 1.0003) << k;
-    ASSERT_LE(std::abs(to.a - from.a), steepest * period * 1.0003) << k;
+    ASSERT_LE(std::abs(to.a), acceleration * 1.0003) << k;
+    ASSERT_LE(std::abs(to.a - from.a), jerk * cycle * 1.0003) << k;
     // The strongest changes linearly within each half of a cycle: the mean of both ends is off by up to J
     // t^2 / 4.
-    ASSERT_NEAR(to.v - from.v, (from.a + to.a) / 2 * period, steepest * period * period / 4) << k;
+    ASSERT_NEAR(to.v - from.v, (from.a + to.a) / 2 * cycle, jerk * cycle * cycle / 4) << k;
     ASSERT_GE(to.v, 0) << k;
   }
 }
@@ -100,4 +100,4 @@ TEST(PlanBraking, a_plan_that_ends_soon_is_left_as_it_is) {
 }
 
 }  // namespace
-}  // namespace trunnion::motion
+}  // namespace trunnion::motion::plan_braking_test

@@ -5,10 +5,10 @@
 
 #include "motion/speed_stage.hpp"
 
-namespace trunnion::motion {
+namespace trunnion::motion::speed_gain_test {
 namespace {
 
-constexpr double gain_cycle = 0.001;
+constexpr double cycle = 0.001;
 
 /// A stretch of a curve: half of the acceleration is left at the highest speed, all of it at the slowest
 /// level.
@@ -33,13 +33,13 @@ std::size_t cycles_to_the_end(SpeedStage& stage, std::size_t most) {
 // 91, 69, 64 and 55 ms with their jerk of 60000 mm/s3 (each 2 sqrt(v / j) or v / a + a / j), in which
 // 5.6, 11.1, 14.7 and 15.6 of the 85 ms * 306 mm are travelled: each ramp loses 279 - 47 / 0.306 = 125 ms.
 TEST(SpeedGain, speed_reaches_the_fastest_level_where_each_cell_allows_a_little_more_than_the_one_before) {
-  SpeedStage stage(gain_cycle);
+  SpeedStage stage(cycle);
   for (int k = 0; k < 6000; ++k) stage.cells().push(curved(0.1 * k, 0.1 * (k + 1), 300 + 0.002 * k));
   stage.set_finished(true);
   stage.extended();
   const std::size_t cycles = cycles_to_the_end(stage, 20000);
-  EXPECT_LE(static_cast<double>(cycles) * gain_cycle, 1.961 + 2 * 0.125);
+  EXPECT_LE(static_cast<double>(cycles) * cycle, 1.961 + 2 * 0.125);
 }
 
 }  // namespace
-}  // namespace trunnion::motion
+}  // namespace trunnion::motion::speed_gain_test

@@ -13,34 +13,23 @@
 namespace trunnion::st::plcopen {
 namespace {
 
-enum class PartKind {
-  step,
-  macro_step,
-  jump,
-  transition,
-  selection_divergence,
-  selection_convergence,
-  simultaneous_divergence,
-  simultaneous_convergence,
-  action_block,
-};
-
-const std::map<std::string_view, PartKind> part_kinds = {
-    {"step", PartKind::step},
-    {"macroStep", PartKind::macro_step},
-    {"jumpStep", PartKind::jump},
-    {"transition", PartKind::transition},
-    {"selectionDivergence", PartKind::selection_divergence},
-    {"selectionConvergence", PartKind::selection_convergence},
-    {"simultaneousDivergence", PartKind::simultaneous_divergence},
-    {"simultaneousConvergence", PartKind::simultaneous_convergence},
-    {"actionBlock", PartKind::action_block}};
-
 const std::set<std::string> plain_qualifiers = {"N", "R", "S", "P", "P0", "P1"};
 const std::set<std::string> timed_qualifiers = {"L", "D", "SD", "DS", "SL"};
 
 struct Part {
-  PartKind kind = PartKind::step;
+  enum class Kind {
+    step,
+    macro_step,
+    jump,
+    transition,
+    selection_divergence,
+    selection_convergence,
+    simultaneous_divergence,
+    simultaneous_convergence,
+    action_block,
+  };
+
+  Kind kind = Kind::step;
   Node node;
   std::vector<std::size_t> from;  ///< what its connections come from
   std::size_t index = 0;          ///< of a step or a transition; of a macro step the step at its end
@@ -48,7 +37,20 @@ struct Part {
   std::string scope;              ///< of the body it is in: local ids begin with it
 };
 
+const std::map<std::string_view, Part::Kind> part_kinds = {
+    {"step", Part::Kind::step},
+    {"macroStep", Part::Kind::macro_step},
+    {"jumpStep", Part::Kind::jump},
+    {"transition", Part::Kind::transition},
+    {"selectionDivergence", Part::Kind::selection_divergence},
+    {"selectionConvergence", Part::Kind::selection_convergence},
+    {"simultaneousDivergence", Part::Kind::simultaneous_divergence},
+    {"simultaneousConvergence", Part::Kind::simultaneous_convergence},
+    {"actionBlock", Part::Kind::action_block}};
+
 class ChartReader {
+  using Kind = Part::Kind;
+
  public:
   ChartReader(Document& document, Node body) : document_(document), body_(body) {}
 
@@ -57,7 +59,7 @@ class ChartReader {
     for (auto& part : parts_) connect(part);
     if (!failed())
       for (auto& part : parts_)
-        if (part.kind == PartKind::macro_step) find_ends(part);
+        if (part.kind == Kind::macro_step) find_ends(part);
     if (failed()) return std::move(chart_);
     for (const auto& part : parts_) follow(part);
     if (!failed()) check_initial_steps();
@@ -81,19 +83,19 @@ class ChartReader {
       return document_.error(node, id.empty() ? "the attribute localId is missing"
                                               : "there are two elements with localId " + id);
     Part part{found->second, node, {}, 0, 0, scope};
-    if (part.kind == PartKind::step) {
+    if (part.kind == Kind::step) {
       if (!document_.name(node, "name")) return;
       part.index = chart_.steps.size();
       const auto text = attribute(node, "name");
       if (!by_name_.emplace(upper_case(text), part.index).second)
         return document_.error(node, "there are two steps '" + text + "'");
       chart_.steps.push_back({node, text, attribute(node, "initialStep") == "true"});
-    } else if (part.kind == PartKind::transition) {
+    } else if (part.kind == Kind::transition) {
       part.index = chart_.transitions.size();
       chart_.transitions.push_back({node, 0, {}, {}});
     }
     parts_.push_back(part);
-    if (part.kind != PartKind::macro_step) return;
+    if (part.kind != Kind::macro_step) return;
     const auto inner = child(child(node, "body"), "SFC");
     if (!inner) return document_.error(node, "the macro step has no body in SFC");
     if (++depth_ > deepest_element) return document_.error(node, "macro steps are nested too deeply");
@@ -108,10 +110,10 @@ class ChartReader {
     std::vector<std::size_t> first, last;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const auto& part = parts_[i];
-      if (part.scope != scope || part.kind != PartKind::step) continue;
+      if (part.scope != scope || part.kind != Kind::step) continue;
       if (part.from.empty()) first.push_back(part.index);
       const bool leads_on = std::any_of(parts_.begin(), parts_.end(), [&](const Part& other) {
-        return other.kind != PartKind::action_block &&
+        return other.kind != Kind::action_block &&
                std::find(other.from.begin(), other.from.end(), i) != other.from.end();
       });
       if (!leads_on) last.push_back(part.index);
@@ -138,7 +140,7 @@ class ChartReader {
 
   void follow(const Part& part) {
     switch (part.kind) {
-      case PartKind::transition: {
+      case Kind::transition: {
         auto& before = chart_.transitions[part.index].before;
         steps_before(part, part, before, 0);
         std::sort(before.begin(), before.end());
@@ -146,20 +148,20 @@ class ChartReader {
         if (before.empty() && !failed()) document_.error(part.node, "the transition has no step before it");
         break;
       }
-      case PartKind::step:
+      case Kind::step:
         transitions_before(part, part, part.index, 0);
         break;
-      case PartKind::macro_step:
+      case Kind::macro_step:
         transitions_before(part, part, part.first, 0);
         break;
-      case PartKind::jump: {
+      case Kind::jump: {
         const auto name = attribute(part.node, "targetName");
         const auto found = by_name_.find(upper_case(name));
         if (found == by_name_.end()) return document_.error(part.node, "there is no step '" + name + "'");
         transitions_before(part, part, found->second, 0);
         break;
       }
-      case PartKind::action_block:
+      case Kind::action_block:
         read_actions(part);
         break;
       default:
@@ -171,13 +173,12 @@ class ChartReader {
   void steps_before(const Part& at, const Part& transition, std::vector<std::size_t>& steps, int depth) {
     for (const auto i : at.from) {
       const auto& part = parts_[i];
-      if (part.kind == PartKind::step || part.kind == PartKind::macro_step) {
+      if (part.kind == Kind::step || part.kind == Kind::macro_step) {
         steps.push_back(part.index);
-      } else if (part.kind == PartKind::transition || part.kind == PartKind::selection_convergence) {
+      } else if (part.kind == Kind::transition || part.kind == Kind::selection_convergence) {
         return document_.error(transition.node,
                                "two transitions follow each other; a step is missing between them");
-      } else if ((part.kind != PartKind::selection_divergence &&
-                  part.kind != PartKind::simultaneous_convergence) ||
+      } else if ((part.kind != Kind::selection_divergence && part.kind != Kind::simultaneous_convergence) ||
                  depth == deepest_element) {
         return document_.error(transition.node, "the transition is not connected with a step before it");
       } else {
@@ -190,15 +191,14 @@ class ChartReader {
   void transitions_before(const Part& at, const Part& step, std::size_t target, int depth) {
     for (const auto i : at.from) {
       const auto& part = parts_[i];
-      if (part.kind == PartKind::transition) {
+      if (part.kind == Kind::transition) {
         auto& after = chart_.transitions[part.index].after;
         if (std::find(after.begin(), after.end(), target) == after.end()) after.push_back(target);
-      } else if (part.kind == PartKind::step || part.kind == PartKind::macro_step ||
-                 part.kind == PartKind::simultaneous_convergence) {
+      } else if (part.kind == Kind::step || part.kind == Kind::macro_step ||
+                 part.kind == Kind::simultaneous_convergence) {
         return document_.error(step.node,
                                "two steps follow each other; a transition is missing between them");
-      } else if ((part.kind != PartKind::selection_convergence &&
-                  part.kind != PartKind::simultaneous_divergence) ||
+      } else if ((part.kind != Kind::selection_convergence && part.kind != Kind::simultaneous_divergence) ||
                  depth == deepest_element) {
         return document_.error(step.node, "the step is not connected with a transition before it");
       } else {
@@ -210,7 +210,7 @@ class ChartReader {
   void read_actions(const Part& block) {
     std::optional<std::size_t> step;
     for (const auto i : block.from)
-      if (parts_[i].kind == PartKind::step) step = parts_[i].index;
+      if (parts_[i].kind == Kind::step) step = parts_[i].index;
     if (!step) return document_.error(block.node, "the action block is not connected with a step");
     for (const auto node : children(block.node, "action")) {
       ChartAssociation one{node, *step, attribute(node, "qualifier"), {}, "", {}};

@@ -10,8 +10,6 @@
 namespace trunnion::st::plcopen {
 namespace {
 
-using ElementKind = Element::Kind;
-
 constexpr int longest_chain = 500;  // elements one behind the other, without one that is computed before
 
 /// Operators that Structured Text writes between their operands.
@@ -20,12 +18,14 @@ bool is_operator(const std::string& upper) {
 }
 
 class StatementWriter {
+  using Kind = Element::Kind;
+
  public:
   StatementWriter(Document& document, const Diagram& diagram, const std::set<std::string>& names)
       : document_(document), elements_(diagram.elements), networks_(diagram.networks), names_(names) {
     state_.resize(elements_.size(), State::open);
     for (std::size_t i = 0; i < elements_.size(); ++i)
-      if (elements_[i].kind == ElementKind::connector && !connectors_.emplace(elements_[i].name, i).second)
+      if (elements_[i].kind == Kind::connector && !connectors_.emplace(elements_[i].name, i).second)
         document_.error(elements_[i].node, "there are two connectors '" + elements_[i].name + "'");
   }
 
@@ -38,7 +38,7 @@ class StatementWriter {
         const auto key = [&](std::size_t i) {
           const auto& e = elements_[i];
           const auto order = e.order > 0 ? e.order : std::numeric_limits<std::uint64_t>::max();
-          return std::tuple(e.kind != ElementKind::label, order, e.y, e.x, i);
+          return std::tuple(e.kind != Kind::label, order, e.y, e.x, i);
         };
         return key(a) < key(b);
       });
@@ -51,10 +51,9 @@ class StatementWriter {
   enum class State { open, in_progress, done };
 
   static bool acts(const Element& e) {
-    return e.kind == ElementKind::coil || e.kind == ElementKind::block || e.kind == ElementKind::label ||
-           e.kind == ElementKind::jump || e.kind == ElementKind::return_ ||
-           e.kind == ElementKind::out_variable ||
-           (e.kind == ElementKind::in_out_variable && !e.inputs.empty());
+    return e.kind == Kind::coil || e.kind == Kind::block || e.kind == Kind::label || e.kind == Kind::jump ||
+           e.kind == Kind::return_ || e.kind == Kind::out_variable ||
+           (e.kind == Kind::in_out_variable && !e.inputs.empty());
   }
 
   Tokens words(const std::string& text, Node node) { return document_.words(text, node); }
@@ -110,22 +109,22 @@ class StatementWriter {
       for (const auto& input : *list)
         for (const auto& source : input.sources) before(source.element, e, seen);
     switch (e.kind) {
-      case ElementKind::coil:
+      case Kind::coil:
         coil(e);
         break;
-      case ElementKind::block:
+      case Kind::block:
         block(e);
         break;
-      case ElementKind::out_variable:
-      case ElementKind::in_out_variable:
+      case Kind::out_variable:
+      case Kind::in_out_variable:
         out_variable(e);
         break;
-      case ElementKind::label:
+      case Kind::label:
         write(own("@label", TokenKind::symbol, e.node));
         write(e.name + ";", e.node);
         break;
-      case ElementKind::jump:
-      case ElementKind::return_:
+      case Kind::jump:
+      case Kind::return_:
         leave(e);
         break;
       default:
@@ -139,11 +138,11 @@ class StatementWriter {
   void before(std::size_t i, const Element& consumer, std::set<std::size_t>& seen, int depth = 0) {
     const auto& e = elements_[i];
     if (!seen.insert(i).second || depth > longest_chain) return;  // a circle is reported where it is read
-    if (e.kind == ElementKind::block || e.kind == ElementKind::coil) {
+    if (e.kind == Kind::block || e.kind == Kind::coil) {
       if (e.order > 0 && consumer.order > 0 && e.order > consumer.order) return;
       return execute(i);
     }
-    if (e.kind == ElementKind::continuation) {
+    if (e.kind == Kind::continuation) {
       if (const auto found = connectors_.find(e.name); found != connectors_.end())
         before(found->second, consumer, seen, depth + 1);
       return;
@@ -230,7 +229,7 @@ class StatementWriter {
     write("IF", e.node);
     write(std::move(power));
     write("THEN", e.node);
-    if (e.kind == ElementKind::return_) {
+    if (e.kind == Kind::return_) {
       write("RETURN; END_IF;", e.node);
     } else {
       write(own("@jump", TokenKind::symbol, e.node));
@@ -239,7 +238,7 @@ class StatementWriter {
   }
 
   static const Input* enable(const Element& e) {
-    if (e.kind != ElementKind::block) return nullptr;
+    if (e.kind != Kind::block) return nullptr;
     for (const auto& input : e.inputs)
       if (upper_case(input.name) == "EN" && (!input.sources.empty() || input.expression)) return &input;
     return nullptr;
@@ -327,8 +326,7 @@ class StatementWriter {
   template <class Separate>
   void further_outputs(const Element& e, Tokens& result, Separate separate) {
     for (const auto& other : elements_) {
-      if (other.kind != ElementKind::out_variable || other.inputs.empty() ||
-          other.inputs[0].sources.size() != 1)
+      if (other.kind != Kind::out_variable || other.inputs.empty() || other.inputs[0].sources.size() != 1)
         continue;
       const auto& source = other.inputs[0].sources[0];
       if (&elements_[source.element] != &e || !is_further_output(e, source.output)) continue;
@@ -366,23 +364,23 @@ class StatementWriter {
       return words("FALSE", e.node);
     }
     switch (e.kind) {
-      case ElementKind::power_rail:
+      case Kind::power_rail:
         return words("TRUE", from.at);
-      case ElementKind::contact:
+      case Kind::contact:
         return contact(from.element, depth);
-      case ElementKind::coil:
+      case Kind::coil:
         if (state_[from.element] == State::done) return value_name(e);
         return not_before(e, from.at);
-      case ElementKind::block:
+      case Kind::block:
         return output(e, from);
-      case ElementKind::in_variable:
-      case ElementKind::in_out_variable: {
+      case Kind::in_variable:
+      case Kind::in_out_variable: {
         auto value = e.edge != Edge::none ? edge(e.edge, e.value, e.node) : e.value;
         return negated(std::move(value), e.negated, e.node, document_);
       }
-      case ElementKind::connector:
+      case Kind::connector:
         return connector(from.element, depth);
-      case ElementKind::continuation: {
+      case Kind::continuation: {
         const auto found = connectors_.find(e.name);
         if (found != connectors_.end()) return source({found->second, "", from.at}, depth + 1);
         document_.error(e.node, "there is no connector '" + e.name + "' in this body");
@@ -409,8 +407,8 @@ class StatementWriter {
     const auto& e = elements_[i];
     if (const auto found = defined_.find(i); found != defined_.end()) return found->second;
     if (e.inputs.empty() || e.inputs[0].sources.empty()) return unconnected(e);
-    const bool at_rail = e.inputs[0].sources.size() == 1 &&
-                         elements_[e.inputs[0].sources[0].element].kind == ElementKind::power_rail;
+    const bool at_rail =
+        e.inputs[0].sources.size() == 1 && elements_[e.inputs[0].sources[0].element].kind == Kind::power_rail;
     Tokens result;
     if (!at_rail) {
       result = input(e.inputs[0], depth + 1);

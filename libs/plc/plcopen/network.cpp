@@ -9,22 +9,20 @@
 namespace trunnion::st::plcopen {
 namespace {
 
-using ElementKind = Element::Kind;
-
-const std::map<std::string_view, ElementKind> element_kinds = {
-    {"leftPowerRail", ElementKind::power_rail},
-    {"rightPowerRail", ElementKind::right_rail},
-    {"contact", ElementKind::contact},
-    {"coil", ElementKind::coil},
-    {"block", ElementKind::block},
-    {"inVariable", ElementKind::in_variable},
-    {"outVariable", ElementKind::out_variable},
-    {"inOutVariable", ElementKind::in_out_variable},
-    {"connector", ElementKind::connector},
-    {"continuation", ElementKind::continuation},
-    {"label", ElementKind::label},
-    {"jump", ElementKind::jump},
-    {"return", ElementKind::return_}};
+const std::map<std::string_view, Element::Kind> element_kinds = {
+    {"leftPowerRail", Element::Kind::power_rail},
+    {"rightPowerRail", Element::Kind::right_rail},
+    {"contact", Element::Kind::contact},
+    {"coil", Element::Kind::coil},
+    {"block", Element::Kind::block},
+    {"inVariable", Element::Kind::in_variable},
+    {"outVariable", Element::Kind::out_variable},
+    {"inOutVariable", Element::Kind::in_out_variable},
+    {"connector", Element::Kind::connector},
+    {"continuation", Element::Kind::continuation},
+    {"label", Element::Kind::label},
+    {"jump", Element::Kind::jump},
+    {"return", Element::Kind::return_}};
 
 template <class Number>
 Number number(const std::string& text) {
@@ -39,13 +37,15 @@ Edge edge_of(Node node) {
 }
 
 class NetworkReader {
+  using Kind = Element::Kind;
+
  public:
   NetworkReader(Document& document, Node body) : document_(document), body_(body) {}
 
   Diagram run() {
     for (const auto node : children(body_)) read(node);
     for (auto& element : diagram_.elements) {
-      const bool counts = element.kind != ElementKind::right_rail;
+      const bool counts = element.kind != Kind::right_rail;
       for (auto& input : element.inputs) connect(input, counts);
       for (auto& input : element.in_outs) connect(input, counts);
     }
@@ -82,23 +82,23 @@ class NetworkReader {
   bool read_content(Element& element) {
     const auto node = element.node;
     switch (element.kind) {
-      case ElementKind::contact:
-      case ElementKind::coil:
+      case Kind::contact:
+      case Kind::coil:
         if (!value(element, "variable")) return false;
         break;
-      case ElementKind::in_variable:
-      case ElementKind::out_variable:
-      case ElementKind::in_out_variable:
+      case Kind::in_variable:
+      case Kind::out_variable:
+      case Kind::in_out_variable:
         if (!value(element, "expression")) return false;
         break;
-      case ElementKind::block:
+      case Kind::block:
         return read_block(element);
-      case ElementKind::connector:
-      case ElementKind::continuation:
+      case Kind::connector:
+      case Kind::continuation:
         element.name = attribute(node, "name");
         break;
-      case ElementKind::label:
-      case ElementKind::jump: {
+      case Kind::label:
+      case Kind::jump: {
         const auto name = document_.name(node, "label");
         if (!name) return false;
         element.name = (*name)[0].text;
@@ -190,18 +190,17 @@ class NetworkReader {
     parents_.resize(elements.size());
     std::iota(parents_.begin(), parents_.end(), std::size_t{0});
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      if (elements[i].kind == ElementKind::right_rail) continue;
+      if (elements[i].kind == Kind::right_rail) continue;
       for (const auto* list : {&elements[i].inputs, &elements[i].in_outs})
         for (const auto& input : *list)
           for (const auto& source : input.sources)
-            if (elements[source.element].kind != ElementKind::power_rail)
-              parents_[root(i)] = root(source.element);
+            if (elements[source.element].kind != Kind::power_rail) parents_[root(i)] = root(source.element);
     }
     std::map<std::string, std::size_t> connectors;
     for (std::size_t i = 0; i < elements.size(); ++i)
-      if (elements[i].kind == ElementKind::connector) connectors.emplace(elements[i].name, i);
+      if (elements[i].kind == Kind::connector) connectors.emplace(elements[i].name, i);
     for (std::size_t i = 0; i < elements.size(); ++i)
-      if (elements[i].kind == ElementKind::continuation)
+      if (elements[i].kind == Kind::continuation)
         if (const auto found = connectors.find(elements[i].name); found != connectors.end())
           parents_[root(i)] = root(found->second);
 
@@ -214,9 +213,9 @@ class NetworkReader {
     std::map<std::size_t, Extent> extents;
     for (std::size_t i = 0; i < elements.size(); ++i) {
       const auto& e = elements[i];
-      if (e.kind == ElementKind::power_rail || e.kind == ElementKind::right_rail) continue;
-      const auto [at, is_new] = extents.try_emplace(
-          root(i), Extent{e.y, e.y, e.x, e.order, i, root(i), e.kind == ElementKind::label});
+      if (e.kind == Kind::power_rail || e.kind == Kind::right_rail) continue;
+      const auto [at, is_new] =
+          extents.try_emplace(root(i), Extent{e.y, e.y, e.x, e.order, i, root(i), e.kind == Kind::label});
       if (is_new) continue;
       auto& extent = at->second;
       extent.top = std::min(extent.top, e.y), extent.bottom = std::max(extent.bottom, e.y);
@@ -255,7 +254,7 @@ class NetworkReader {
 
 std::string Diagram::described(const Element& element) {
   std::string name(local_name(element.node));
-  if (element.kind == ElementKind::block) name += " " + element.name;
+  if (element.kind == Element::Kind::block) name += " " + element.name;
   return name + " with localId " + element.id;
 }
 

@@ -6,12 +6,12 @@
 
 #include <functional>
 
-namespace trunnion::st {
+namespace trunnion::st::chart_test {
 namespace {
 
 using testing::HasSubstr;
 
-std::string chart_message(const std::string& xml) {
+std::string first_message(const std::string& xml) {
   for (const auto& line : compile({{"chart.xml", xml}}, interface_registers()).lines())
     if (line.find(": error: ") != std::string::npos) return line;
   return "";
@@ -203,7 +203,7 @@ TEST(Chart, WrongConditionsAndMacroStepsAreNamed) {
     ChartText chart;
     chart.step(1, "rest", {2}, true);
     chart.text += element;
-    return chart_message(program(chart, bits));
+    return first_message(program(chart, bits));
   };
   DiagramText ladder;
   ladder.coil("q", {ladder.contact("a", {ladder.rail()})});
@@ -232,7 +232,7 @@ TEST(Chart, WrongOnesSayWhichElement) {
     chart.step(3, "work", {2});
     chart.transition(4, "b", {3});
     change(chart);
-    return chart_message(program(chart, bits));
+    return first_message(program(chart, bits));
   };
   EXPECT_EQ(with([](ChartText&) {}), "");
   EXPECT_THAT(with([](ChartText& c) { c.step(7, "REST", {}); }), HasSubstr("there are two steps 'REST'"));
@@ -270,4 +270,4 @@ TEST(Chart, WrongOnesSayWhichElement) {
 }
 
 }  // namespace
-}  // namespace trunnion::st
+}  // namespace trunnion::st::chart_test

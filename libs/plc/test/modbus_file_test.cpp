@@ -5,10 +5,10 @@
 
 #include "plc/devices/modbus_file.hpp"
 
-namespace trunnion::st {
+namespace trunnion::st::modbus_file_test {
 namespace {
 
-std::string file_refusal(const std::string& yaml) {
+std::string refusal(const std::string& yaml) {
   try {
     read_modbus(yaml, "modbus.yaml");
     return "";
@@ -17,7 +17,7 @@ std::string file_refusal(const std::string& yaml) {
   }
 }
 std::string refused_block(const std::string& list, const std::string& block) {
-  return file_refusal("devices:\n  d:\n    host: h\n    " + list + ":\n      - {" + block + "}\n");
+  return refusal("devices:\n  d:\n    host: h\n    " + list + ":\n      - {" + block + "}\n");
 }
 
 TEST(ModbusFile, HasDevicesAndAServer) {
@@ -47,10 +47,9 @@ TEST(ModbusFile, HasDevicesAndAServer) {
 
 TEST(ModbusFile, WhatIsWrongIsRefusedWithItsPlace) {
   using testing::HasSubstr;
-  EXPECT_THAT(file_refusal("devices: {d: {port: 502}}"),
-              HasSubstr("modbus.yaml:1:14: error: 'host' is missing"));
-  EXPECT_THAT(file_refusal("devices: {d: {host: h, port: 0}}"), HasSubstr("modbus.yaml:1:30: error: "));
-  EXPECT_THAT(file_refusal("nothing: 1"), HasSubstr("modbus.yaml:1:1: error: "));
+  EXPECT_THAT(refusal("devices: {d: {port: 502}}"), HasSubstr("modbus.yaml:1:14: error: 'host' is missing"));
+  EXPECT_THAT(refusal("devices: {d: {host: h, port: 0}}"), HasSubstr("modbus.yaml:1:30: error: "));
+  EXPECT_THAT(refusal("nothing: 1"), HasSubstr("modbus.yaml:1:1: error: "));
   EXPECT_THAT(refused_block("inputs", "table: coils, address: 0, count: 8"),
               HasSubstr("'table', 'address', 'count' and 'at'"));
   EXPECT_THAT(refused_block("inputs", "table: coils, address: 0, count: 8, at: Y3"),
@@ -73,12 +72,12 @@ TEST(ModbusFile, WhatIsWrongIsRefusedWithItsPlace) {
                             "table: coils, address: 0, count: 9, at: X5}\n      - {table: coils, address: "
                             "50, count: 1, at: X6"),
               HasSubstr("modbus.yaml:6:51: error: X6 is written by another block already"));
-  EXPECT_THAT(file_refusal("server: {inputs: [{table: discrete_inputs, address: 0, count: 1, at: X0}]}"),
+  EXPECT_THAT(refusal("server: {inputs: [{table: discrete_inputs, address: 0, count: 1, at: X0}]}"),
               HasSubstr("others can write coils and holding_registers only"));
-  EXPECT_THAT(file_refusal("server: {outputs: [{table: input_registers, address: 0, count: 2, at: W0}, "
-                           "{table: input_registers, address: 1, count: 2, at: W8}]}"),
+  EXPECT_THAT(refusal("server: {outputs: [{table: input_registers, address: 0, count: 2, at: W0}, "
+                      "{table: input_registers, address: 1, count: 2, at: W8}]}"),
               HasSubstr("the Modbus address 1 is there twice"));
 }
 
 }  // namespace
-}  // namespace trunnion::st
+}  // namespace trunnion::st::modbus_file_test

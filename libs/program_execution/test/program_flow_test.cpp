@@ -238,7 +238,7 @@ TEST_F(Flow, AnErrorInTheTextEndsTheMotionBeforeItAndStays) {
   EXPECT_EQ(run(), FlowState::alarm);
   EXPECT_EQ(x(), 20) << "the moves before it are executed to their end";
   EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::unknown_g));
-  EXPECT_EQ(flow.machine_alarm(), nullptr);
+  EXPECT_EQ(&flow.alarm(), &alarm::unknown_g) << "from the same table as any other";
   EXPECT_EQ(flow.alarm_text().substr(0, 4), "4:1:");
   EXPECT_EQ(flow.fill(false), FlowState::alarm);
   EXPECT_EQ(moves.size(), 2u);
@@ -248,7 +248,7 @@ TEST_F(Flow, AMoveOutOfTravelIsNotGivenToMotion) {
   start("G90 F6000\nG1 X10\nX401\n");
   EXPECT_EQ(run(), FlowState::alarm);
   EXPECT_EQ(x(), 10);
-  EXPECT_EQ(flow.machine_alarm(), &alarm::travel_limit);
+  EXPECT_EQ(&flow.alarm(), &alarm::travel_limit);
   EXPECT_EQ(flow.alarm_text(), "3: X would go to 401.0000, its travel is -400.0000 .. 400.0000");
   EXPECT_EQ(moves.size(), 1u);
 }
@@ -332,7 +332,7 @@ TEST_F(Flow, ACalledCycleNeedsTheAxesAtRestAndKeepsItsPlaceAndItsVariables) {
   line.line = 4;
   start(program, line);
   EXPECT_EQ(run(), FlowState::alarm);
-  EXPECT_EQ(flow.machine_alarm(), &alarm::search_failed);
+  EXPECT_EQ(&flow.alarm(), &alarm::search_failed);
 }
 
 TEST_F(Flow, ATapIsAMoveOnlyWhileTappingAndCannotBeRestartedInTheThread) {
@@ -371,7 +371,7 @@ TEST_F(Flow, AnOffsetCountsInTheTravelAndTheExtentOfThePathIsKept) {
   flow.set_offset(offset);
   start("G90 F6000\nG1 X100 Y-20\nX396\n");
   EXPECT_EQ(run(), FlowState::alarm);
-  EXPECT_EQ(flow.machine_alarm(), &alarm::travel_limit) << "396 + 5 is above 400";
+  EXPECT_EQ(&flow.alarm(), &alarm::travel_limit) << "396 + 5 is above 400";
   EXPECT_EQ(flow.extent().high[language::X], 100);
   EXPECT_EQ(flow.extent().low[language::Y], -20);
 }
@@ -396,7 +396,7 @@ TEST_F(Flow, ASearchForALineThatIsNotReachedFailsAtTheEndOfTheText) {
   entry.line = 4;
   start("G90 F6000\nG1 X10\nM30\nG1 X20\n", entry);
   EXPECT_EQ(run(), FlowState::alarm);
-  EXPECT_EQ(flow.machine_alarm(), &alarm::search_failed);
+  EXPECT_EQ(&flow.alarm(), &alarm::search_failed);
   EXPECT_EQ(flow.alarm_text(), "4: the program ends without reaching this line");
   EXPECT_TRUE(moves.empty());
 }

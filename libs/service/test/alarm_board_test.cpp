@@ -105,12 +105,16 @@ TEST_F(AlarmBoardTest, ClearingNeedsNoReset) {
   EXPECT_FALSE(board_.any());
 }
 
-TEST_F(AlarmBoardTest, AnAlarmOfTheLanguageCarriesItsNumberAndGoesWithTheNextReset) {
-  board_.raise_number(1112, 0, "prog:3:1: text");
-  ASSERT_TRUE(eventually([&] {
-    Alarm in;
-    return reader_.take(in) && in.number == 1112 && in.active && in.reaction == idl::service::Reaction::SHOW;
-  }));
+TEST_F(AlarmBoardTest, AnEventIsNewsEachTimeAndGoesWithTheNextReset) {
+  board_.report(alarm::feed_not_positive, 0, "prog:3:1: text");
+  board_.report(alarm::feed_not_positive, 0, "prog:3:1: text");
+  const auto twice = [](const Alarm& in) { return in.active && in.occurrences == 2; };
+  ASSERT_TRUE(published(alarm::feed_not_positive, 0, twice));
+  const auto& a = newest(alarm::feed_not_positive, 0);
+  EXPECT_EQ(a.number, 1112u);
+  EXPECT_EQ(a.severity, idl::service::Severity::ERROR);
+  EXPECT_EQ(a.reaction, idl::service::Reaction::SHOW);
+  EXPECT_EQ(a.text, "prog:3:1: text");
   board_.reset();
   EXPECT_FALSE(board_.any());
 }

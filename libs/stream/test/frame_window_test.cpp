@@ -9,13 +9,12 @@
 #include "contracts/types.hpp"
 #include "stream/feedback_window.hpp"
 
-namespace trunnion::stream {
+namespace trunnion::stream::frame_window_test {
 namespace {
 
 using idl::stream::AxisFrame;
 
-AxisFrame window_frame(std::uint64_t first, std::uint32_t count, std::uint32_t epoch = 1,
-                       bool starts = false) {
+AxisFrame frame(std::uint64_t first, std::uint32_t count, std::uint32_t epoch = 1, bool starts = false) {
   AxisFrame f;
   f.epoch = epoch, f.first = first, f.count = count, f.starts = starts;
   f.setpoints.assign(count, static_cast<double>(first));
@@ -37,7 +36,7 @@ std::vector<std::uint64_t> drain(FrameWindow<AxisFrame>& window) {
 
 TEST(FrameWindow, NothingIsTakenBeforeAStart) {
   FrameWindow<AxisFrame> window;
-  put(window, window_frame(8, 8));
+  put(window, frame(8, 8));
   EXPECT_TRUE(drain(window).empty());
 }
 
@@ -51,7 +50,7 @@ TEST(FrameWindow, TwoCopiesInAnyOrderGiveEachFrameOnce) {
     int at[2] = {0, 0};
     while (at[0] < 30 || at[1] < 30) {
       const int replica = at[0] == 30 ? 1 : at[1] == 30 ? 0 : static_cast<int>(random() % 2);
-      put(window, window_frame(100 + 8 * static_cast<std::uint64_t>(at[replica]), 8, 1, at[replica] == 0));
+      put(window, frame(100 + 8 * static_cast<std::uint64_t>(at[replica]), 8, 1, at[replica] == 0));
       ++at[replica];
       for (const auto first : drain(window)) taken.push_back(first);
     }
@@ -62,10 +61,10 @@ TEST(FrameWindow, TwoCopiesInAnyOrderGiveEachFrameOnce) {
 
 TEST(FrameWindow, ACopyThatComputesOtherwiseIsSeenEvenAfterTheFrameWasTaken) {
   FrameWindow<AxisFrame> window;
-  put(window, window_frame(0, 8, 1, true));
+  put(window, frame(0, 8, 1, true));
   EXPECT_EQ(drain(window).size(), 1u);
-  EXPECT_EQ(put(window, window_frame(0, 8, 1, true)), Arrival::duplicate);
-  auto other = window_frame(0, 8, 1, true);
+  EXPECT_EQ(put(window, frame(0, 8, 1, true)), Arrival::duplicate);
+  auto other = frame(0, 8, 1, true);
   other.setpoints[3] = std::nextafter(other.setpoints[3], 1.0);
   EXPECT_EQ(put(window, other), Arrival::differs);
 }
@@ -75,47 +74,47 @@ TEST(FrameWindow, TheHistoryOfAWriterThatMatchesLateReplacesNothingThatIsStillTo
   // one, whose history reaches back to the start of the motion, 2048 cycles (two rounds of the slots)
   // earlier.
   FrameWindow<AxisFrame> window;
-  for (std::uint64_t first = 2040; first < 2064; first += 4) put(window, window_frame(first, 4));
+  for (std::uint64_t first = 2040; first < 2064; first += 4) put(window, frame(first, 4));
   window.set_next(1, 2040);
-  for (std::uint64_t first = 0; first < 2040; first += 4) put(window, window_frame(first, 4, 1, first == 0));
+  for (std::uint64_t first = 0; first < 2040; first += 4) put(window, frame(first, 4, 1, first == 0));
   EXPECT_EQ(drain(window), (std::vector<std::uint64_t>{2040, 2044, 2048, 2052, 2056, 2060}));
 
   // The same before the process knows where it continues.
   FrameWindow<AxisFrame> joining;
-  for (std::uint64_t first = 2040; first < 2064; first += 4) put(joining, window_frame(first, 4));
-  for (std::uint64_t first = 0; first < 2040; first += 4) put(joining, window_frame(first, 4, 1, first == 0));
+  for (std::uint64_t first = 2040; first < 2064; first += 4) put(joining, frame(first, 4));
+  for (std::uint64_t first = 0; first < 2040; first += 4) put(joining, frame(first, 4, 1, first == 0));
   joining.set_next(1, 2040);
   EXPECT_EQ(drain(joining), (std::vector<std::uint64_t>{2040, 2044, 2048, 2052, 2056, 2060}));
 }
 
 TEST(FrameWindow, ANewEpochDropsWhatIsLeftOfTheOld) {
   FrameWindow<AxisFrame> window;
-  put(window, window_frame(0, 8, 1, true));
-  put(window, window_frame(8, 8, 1));
-  put(window, window_frame(5, 8, 2, true));
+  put(window, frame(0, 8, 1, true));
+  put(window, frame(8, 8, 1));
+  put(window, frame(5, 8, 2, true));
   EXPECT_EQ(drain(window), std::vector<std::uint64_t>{5});
-  EXPECT_EQ(put(window, window_frame(16, 8, 1)), Arrival::stale);
+  EXPECT_EQ(put(window, frame(16, 8, 1)), Arrival::stale);
 }
 
 TEST(FrameWindow, AFrameOfALaterEpochIsAGapWhenItsStartIsMissing) {
   FrameWindow<AxisFrame> window;
   window.set_next(1, 100);
   EXPECT_FALSE(window.gap());
-  put(window, window_frame(40, 8, 2));
+  put(window, frame(40, 8, 2));
   EXPECT_TRUE(window.gap()) << "the frame that starts epoch 2 was lost";
-  put(window, window_frame(32, 8, 2, true));
+  put(window, frame(32, 8, 2, true));
   EXPECT_EQ(drain(window), (std::vector<std::uint64_t>{32, 40}));
   EXPECT_FALSE(window.gap());
 }
 
 TEST(FrameWindow, AMissingFrameIsAGapOnceALaterOneIsHere) {
   FrameWindow<AxisFrame> window;
-  put(window, window_frame(0, 8, 1, true));
+  put(window, frame(0, 8, 1, true));
   drain(window);
   EXPECT_FALSE(window.gap());
-  put(window, window_frame(16, 8, 1));
+  put(window, frame(16, 8, 1));
   EXPECT_TRUE(window.gap());
-  put(window, window_frame(8, 8, 1));
+  put(window, frame(8, 8, 1));
   EXPECT_EQ(drain(window), (std::vector<std::uint64_t>{8, 16}));
 }
 
@@ -123,10 +122,10 @@ TEST(FrameWindow, AMissingFrameIsAGapOnceALaterOneIsHere) {
 TEST(FrameWindow, AFrameOfAnImpossibleEpochStandsInTheWayOfNone) {
   FrameWindow<AxisFrame> window;
   window.set_next(1, 100);
-  EXPECT_EQ(put(window, window_frame(108, 8, 9)), Arrival::news);
+  EXPECT_EQ(put(window, frame(108, 8, 9)), Arrival::news);
   EXPECT_TRUE(window.gap());
-  put(window, window_frame(100, 8, 1, true));
-  EXPECT_EQ(put(window, window_frame(108, 8, 1)), Arrival::news) << "in the same slot";
+  put(window, frame(100, 8, 1, true));
+  EXPECT_EQ(put(window, frame(108, 8, 1)), Arrival::news) << "in the same slot";
   EXPECT_EQ(drain(window), (std::vector<std::uint64_t>{100, 108}));
   window.set_next(1, 116);  // as after a gap, from the drive
   EXPECT_FALSE(window.gap());
@@ -135,14 +134,14 @@ TEST(FrameWindow, AFrameOfAnImpossibleEpochStandsInTheWayOfNone) {
 TEST(FrameWindow, AWindowThatAForeignStartLedAwayIsAstrayAndReturns) {
   FrameWindow<AxisFrame> window;
   window.set_next(1, 100);
-  put(window, window_frame(5000, 8, 9, true));
+  put(window, frame(5000, 8, 9, true));
   EXPECT_EQ(drain(window), std::vector<std::uint64_t>{5000});
   EXPECT_TRUE(window.is_astray(1, 100));
   window.set_next(1, 100);
   EXPECT_FALSE(window.is_astray(1, 100));
-  put(window, window_frame(100, 8, 2, true));
+  put(window, frame(100, 8, 2, true));
   EXPECT_EQ(drain(window), std::vector<std::uint64_t>{100});
-  put(window, window_frame(1'000'000, 8, 2, true));
+  put(window, frame(1'000'000, 8, 2, true));
   drain(window);
   EXPECT_TRUE(window.is_astray(2, 108)) << "the same epoch, but cycles that nobody may write yet";
 }
@@ -159,4 +158,4 @@ TEST(FeedbackWindow, RowsAreFoundByTheirCycleOnly) {
 }
 
 }  // namespace
-}  // namespace trunnion::stream
+}  // namespace trunnion::stream::frame_window_test

@@ -6,10 +6,10 @@
 
 #include <random>
 
-namespace trunnion::stream {
+namespace trunnion::stream::shadow_comparison_test {
 namespace {
 
-idl::stream::AxisFrame shadow_frame(std::uint64_t first, std::uint16_t channel = 0, double add = 0) {
+idl::stream::AxisFrame frame(std::uint64_t first, std::uint16_t channel = 0, double add = 0) {
   idl::stream::AxisFrame f;
   f.channel = channel, f.stage = idl::stream::Stage::KINEMATICS, f.epoch = 1, f.first = first, f.count = 4;
   f.axes = {0};
@@ -26,9 +26,9 @@ TEST(ShadowComparison, CountsEqualCyclesWhoeverIsFirst) {
     while (at[0] < 200 || at[1] < 200) {
       const bool shadow = at[0] == 200 || (at[1] < 200 && random() % 2 == 0);
       if (shadow)
-        comparison.shadow(shadow_frame(at[1])), at[1] += 4;
+        comparison.shadow(frame(at[1])), at[1] += 4;
       else
-        comparison.original(shadow_frame(at[0])), at[0] += 4;
+        comparison.original(frame(at[0])), at[0] += 4;
     }
     ASSERT_EQ(comparison.equal_cycles(), 200u);
     ASSERT_FALSE(comparison.first_difference());
@@ -38,9 +38,9 @@ TEST(ShadowComparison, CountsEqualCyclesWhoeverIsFirst) {
 TEST(ShadowComparison, NamesTheOriginalsValueFirstWhoeverCameFirst) {
   for (const bool shadow_first : {false, true}) {
     ShadowComparison comparison;
-    if (shadow_first) comparison.shadow(shadow_frame(8, 0, 0.5));
-    comparison.original(shadow_frame(8));
-    if (!shadow_first) comparison.shadow(shadow_frame(8, 0, 0.5));
+    if (shadow_first) comparison.shadow(frame(8, 0, 0.5));
+    comparison.original(frame(8));
+    if (!shadow_first) comparison.shadow(frame(8, 0, 0.5));
     ASSERT_TRUE(comparison.first_difference());
     EXPECT_EQ(comparison.first_difference()->cycle, 8u);
     EXPECT_THAT(comparison.first_difference()->values, testing::HasSubstr("column 0: 8 and 8.5"));
@@ -50,13 +50,13 @@ TEST(ShadowComparison, NamesTheOriginalsValueFirstWhoeverCameFirst) {
 
 TEST(ShadowComparison, ChannelsAreApartAndWhatHasNoCounterpartIsForgotten) {
   ShadowComparison comparison;
-  comparison.original(shadow_frame(8, 0));
-  comparison.shadow(shadow_frame(8, 1, 1));
+  comparison.original(frame(8, 0));
+  comparison.shadow(frame(8, 1, 1));
   EXPECT_FALSE(comparison.first_difference());
-  comparison.original(shadow_frame(8 + ShadowComparison::window_cycles + 4, 0));
-  comparison.shadow(shadow_frame(8, 0, 1));  // its counterpart is too old
+  comparison.original(frame(8 + ShadowComparison::window_cycles + 4, 0));
+  comparison.shadow(frame(8, 0, 1));  // its counterpart is too old
   EXPECT_FALSE(comparison.first_difference());
 }
 
 }  // namespace
-}  // namespace trunnion::stream
+}  // namespace trunnion::stream::shadow_comparison_test

@@ -10,8 +10,6 @@
 
 namespace trunnion::truth {
 
-inline const MachineOutline ac = outline(geometry::ac_table());
-
 inline PoseReport report(const std::string& text) {
   return {make_geometry(parse_truth(text, "truth.yaml", ac).geometry, ac, "truth.yaml"),
           geometry::make(ac.design), ac};

@@ -14,11 +14,8 @@
 namespace trunnion::truth {
 namespace {
 
-const MachineOutline measured_outline = outline(geometry::ac_table());
-
 TrueGeometry geometry_of(const std::string& text) {
-  return make_geometry(parse_truth(text, "truth.yaml", measured_outline).geometry, measured_outline,
-                       "truth.yaml");
+  return make_geometry(parse_truth(text, "truth.yaml", ac).geometry, ac, "truth.yaml");
 }
 
 struct Ballbar {

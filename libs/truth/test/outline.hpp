@@ -20,4 +20,6 @@ inline MachineOutline outline(const geometry::ChainParameters& design) {
   return machine;
 }
 
+inline const MachineOutline ac = outline(geometry::ac_table());
+
 }  // namespace trunnion::truth

@@ -6,24 +6,22 @@
 #include "testing_support/refusal.hpp"
 #include "truth/truth_file.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::truth::probe_section_test {
 namespace {
 
-const MachineOutline ac_outline = outline(geometry::ac_table());
+Truth parsed(const std::string& text) { return parse_truth(text, "truth.yaml", ac); }
 
-Truth parsed_truth(const std::string& text) { return parse_truth(text, "truth.yaml", ac_outline); }
-
-std::string section_refusal(const std::string& text) {
-  return testing_support::refusal_of([&] { parsed_truth(text); });
+std::string refusal(const std::string& text) {
+  return testing_support::refusal_of([&] { parsed(text); });
 }
 
 TEST(ProbeSection, WithoutItThereIsNoProbe) {
-  EXPECT_FALSE(parsed_truth("").probe);
-  EXPECT_TRUE(parsed_truth("").solids.empty());
+  EXPECT_FALSE(parsed("").probe);
+  EXPECT_TRUE(parsed("").solids.empty());
 }
 
 TEST(ProbeSection, TheProbeHasItsUnits) {
-  const auto probe = *parsed_truth(R"(
+  const auto probe = *parsed(R"(
 probe: {ball_radius_mm: 2.5, length_mm: 150, pre_travel_um: 8, lobing_um: 2, lobing_phase_deg: 30,
         repeatability_um: 0.5, delay_ms: 1.5, seed: 9, no_signal_from_touch: 3, early_mm: 2, early_from_touch: 4}
 )")
@@ -42,7 +40,7 @@ probe: {ball_radius_mm: 2.5, length_mm: 150, pre_travel_um: 8, lobing_um: 2, lob
 }
 
 TEST(ProbeSection, SolidsAreWhereTheirPositionAndRotationPutThem) {
-  const auto solids = parsed_truth(R"(
+  const auto solids = parsed(R"(
 solids:
   - {sphere: {diameter_mm: 25, shaft_diameter_mm: 10, shaft_length_mm: 60}, position_mm: [1, 2, 3]}
   - {box: {size_mm: [20, 40, 60]}, rotation_deg: [0, 0, 90]}
@@ -86,11 +84,11 @@ TEST(ProbeSection, EveryFaultIsOneLineWithItsPlace) {
       {"solids: [{box: {size_mm: [1, 2, 3]}, position_mm: [0, 0, 1e6]}]",
        "1:58: error: 1e6 is not within -100000 .. 100000"}};
   for (const auto& [text, expected] : faults) {
-    const auto found = section_refusal(text);
+    const auto found = refusal(text);
     EXPECT_THAT(found, testing::StartsWith("truth.yaml:" + expected)) << text;
     EXPECT_EQ(found.find('\n'), std::string::npos) << text;
   }
 }
 
 }  // namespace
-}  // namespace trunnion::truth
+}  // namespace trunnion::truth::probe_section_test

@@ -12,8 +12,6 @@
 namespace trunnion::truth {
 namespace {
 
-const MachineOutline outline_of_ac = outline(geometry::ac_table());
-
 const Grade& grade(const std::string& name) {
   for (const auto& g : grades())
     if (g.name == name) return g;
@@ -44,8 +42,7 @@ TEST(RandomMachine, ASeedGivesTheSameBitsAndAnotherSeedAnotherMachine) {
   pose.approach = {1, -1, 1, 1, 0, -1, 0, 0, 0};
   pose.tool_length = 120;
   const auto tip = [&](std::uint64_t seed) {
-    const auto made =
-        TrueGeometry::make(outline_of_ac.design, draw_machine(grade("worn_trunnion"), seed, outline_of_ac));
+    const auto made = TrueGeometry::make(ac.design, draw_machine(grade("worn_trunnion"), seed, ac));
     return std::get<TrueGeometry>(made).pose(pose).tip;
   };
   EXPECT_EQ(tip(7), tip(7));
@@ -57,7 +54,7 @@ TEST(RandomMachine, TheErrorsHaveTheDeviationsOfTheirGrade) {
   constexpr int machines = 400;
   double squareness = 0, straightness = 0, tilt = 0;
   for (int seed = 0; seed < machines; ++seed) {
-    const auto truth = draw_machine(g, static_cast<std::uint64_t>(seed), outline_of_ac);
+    const auto truth = draw_machine(g, static_cast<std::uint64_t>(seed), ac);
     squareness += std::pow(truth.axes[1].inclination[2] * 1e6, 2);
     // Mean square over the travel of EYX and over a turn of EBC.
     for (int i = 0; i < 50; ++i) {
@@ -76,7 +73,7 @@ TEST(RandomMachine, TheErrorsHaveTheDeviationsOfTheirGrade) {
 }
 
 TEST(RandomMachine, OnlyAxesThatTheMachineHasGetErrors) {
-  const auto truth = draw_machine(grade("new_machine"), 3, outline_of_ac);
+  const auto truth = draw_machine(grade("new_machine"), 3, ac);
   EXPECT_FALSE(truth.axes[3].errors.empty());
   EXPECT_TRUE(truth.axes[4].errors.empty());
   EXPECT_TRUE(truth.axes[6].errors.empty());
@@ -86,7 +83,7 @@ TEST(RandomMachine, EveryGradeWarmsUpAndHasASpindleThatGrows) {
   ASSERT_EQ(grades().size(), 3u);
   for (const auto& g : grades()) {
     EXPECT_FALSE(g.about.empty());
-    const auto truth = draw_machine(g, 1, outline_of_ac);
+    const auto truth = draw_machine(g, 1, ac);
     EXPECT_GT(truth.heat[0].rise_per_speed, 0) << g.name;
     EXPECT_LT(truth.heat[spindle_source].shift.z(), 0) << g.name;
   }

@@ -12,8 +12,6 @@
 namespace trunnion::truth {
 namespace {
 
-const MachineOutline ac = outline(geometry::ac_table());
-
 GeometryTruth parsed(const std::string& text) { return parse_truth(text, "truth.yaml", ac).geometry; }
 
 std::string refusal(const std::string& text) {

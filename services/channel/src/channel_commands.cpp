@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an operator may ask of a channel, and when.
-#include <algorithm>
 #include <cmath>
 
 #include "channel_core.hpp"
 #include "commands/channel_request.hpp"
+#include "commands/override_limits.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
+#include "motion/cell_builder.hpp"
 
 namespace trunnion::channel {
 
@@ -15,9 +16,12 @@ using idl::channel::CommandKind;
 
 namespace {
 
+// Motion plans every cell for this one.
+static_assert(commands::feed_override.maximum == motion::highest_override);
+
 /// Of an override, to whole percents within its limits.
-double stepped(double override_, double by, double minimum, double maximum) {
-  return std::clamp(std::round(100 * (override_ + by)) / 100, minimum, maximum);
+double stepped(double override_, double by, const commands::OverrideLimits& limits) {
+  return limits.clamp(std::round(100 * (override_ + by)) / 100);
 }
 
 }  // namespace
@@ -75,9 +79,9 @@ void ChannelCore::set_control(const idl::plc::ChannelControl& control) {
     end_homing();
   }
   if (!control_.sets_overrides) return;
-  switches_.feed_override = std::clamp(control_.feed_override, 0.0, 1.5);
-  switches_.rapid_override = std::clamp(control_.rapid_override, 0.0, 1.0);
-  switches_.spindle_override = std::clamp(control_.spindle_override, 0.5, 1.5);
+  switches_.feed_override = commands::feed_override.clamp(control_.feed_override);
+  switches_.rapid_override = commands::rapid_override.clamp(control_.rapid_override);
+  switches_.spindle_override = commands::spindle_override.clamp(control_.spindle_override);
 }
 
 Answer ChannelCore::set_override(double& override_, double fraction) {
@@ -128,13 +132,13 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
       return set_override(switches_.spindle_override, request.fraction);
     case CommandKind::FEED_OVERRIDE_STEP:
       return set_override(switches_.feed_override,
-                          stepped(switches_.feed_override, request.fraction, 0, 1.5));
+                          stepped(switches_.feed_override, request.fraction, commands::feed_override));
     case CommandKind::RAPID_OVERRIDE_STEP:
       return set_override(switches_.rapid_override,
-                          stepped(switches_.rapid_override, request.fraction, 0, 1));
+                          stepped(switches_.rapid_override, request.fraction, commands::rapid_override));
     case CommandKind::SPINDLE_OVERRIDE_STEP:
       return set_override(switches_.spindle_override,
-                          stepped(switches_.spindle_override, request.fraction, 0.5, 1.5));
+                          stepped(switches_.spindle_override, request.fraction, commands::spindle_override));
     case CommandKind::SINGLE_BLOCK:
       switches_.single_block = request.on;
       return {};

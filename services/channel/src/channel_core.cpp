@@ -49,7 +49,7 @@ void ChannelCore::apply_parameters() {
     if (first) mdi_.modal = power_on_modal();
   } catch (const std::exception& e) {
     if (first)
-      unusable_ = {&machine::alarm_of(e), 0, e.what()};
+      unusable_ = {&machine::alarm_of(e), e.what()};
     else
       event(machine::alarm_of(e), e.what());
     next_parameters_.reset();

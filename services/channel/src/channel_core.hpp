@@ -44,10 +44,9 @@ using program_execution::ProgramFlow;
 using program_execution::RestartPoint;
 using program_execution::Tapping;
 
-/// Something to raise as an alarm: one of alarms.yaml, or a number of the NC language.
+/// Something to raise as an alarm, as Refusal.
 struct ChannelEvent {
-  const machine::AlarmDefinition* alarm = nullptr;  ///< null: `number` is one of the NC language
-  std::uint32_t number = 0;
+  const machine::AlarmDefinition* alarm;
   std::string text;
 };
 
@@ -316,7 +315,7 @@ class ChannelCore {
   AxisValues drive_position() const;
   std::string program_name() const { return states_.is(Activity::program) ? selected_.name : "MDI"; }
   void event(const machine::AlarmDefinition& alarm, std::string text) {
-    events_.push_back({&alarm, 0, std::move(text)});
+    events_.push_back({&alarm, std::move(text)});
   }
 
   const std::uint16_t number_;

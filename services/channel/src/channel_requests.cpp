@@ -43,8 +43,7 @@ void ChannelCore::run_pending(FlowState state) {
   }
   switch (state) {
     case FlowState::alarm:
-      events_.push_back(
-          {flow().machine_alarm(), flow().alarm_number(), program_name() + ":" + flow().alarm_text()});
+      event(flow().alarm(), program_name() + ":" + flow().alarm_text());
       finish(false);
       return;
     case FlowState::end:

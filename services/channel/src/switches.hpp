@@ -7,9 +7,8 @@
 namespace trunnion::channel {
 
 struct Switches {
-  double feed_override = 1;     ///< 0..1.5
-  double rapid_override = 1;    ///< 0..1
-  double spindle_override = 1;  ///< 0.5..1.5
+  // Fractions within commands/override_limits.hpp.
+  double feed_override = 1, rapid_override = 1, spindle_override = 1;
   bool single_block = false, optional_stop = false;
   // From the first block of a program on.
   bool dry_run = false;         ///< feeds of the program are replaced by parameter 04c914

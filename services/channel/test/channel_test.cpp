@@ -122,7 +122,7 @@ TEST_F(Channel, ASyntaxErrorIsReportedWithItsPlaceAndWhatIsBeforeItRuns) {
   ask(CommandKind::CYCLE_START);
   run();
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].number, 1101u);
+  EXPECT_EQ(events[0].alarm, &alarm::unknown_g);
   EXPECT_EQ(events[0].text.substr(0, 12), "part.nc:3:1:");
   EXPECT_EQ(drive.rows.back()[0], 10);
 }

@@ -3,6 +3,7 @@
 // orders.
 #include <algorithm>
 
+#include "commands/override_limits.hpp"
 #include "plc_core.hpp"
 #include "text/utf8.hpp"
 
@@ -57,16 +58,18 @@ idl::plc::ChannelControl PlcCore::control(std::size_t channel) const {
   const auto& r = memory_.registers;
   const auto& symbols = control_symbols_[channel];
   const auto bit = [&](Address address) { return plc::load(r, address) != 0; };
-  const auto share = [&](Address address, double low, double high) {
-    return std::clamp(plc::load(r, address) / 100.0, low, high);
+  const auto share = [&](Address address, const commands::OverrideLimits& limits) {
+    return limits.clamp(plc::load(r, address) / 100.0);
   };
   idl::plc::ChannelControl control;
   control.start_inhibit = bit(symbols.start_inhibit);
   control.manual_inhibit = bit(symbols.manual_inhibit);
   control.sets_overrides = bit(symbols.sets_overrides);
-  control.feed_override = control.sets_overrides ? share(symbols.feed_override, 0, 1.5) : 1;
-  control.rapid_override = control.sets_overrides ? share(symbols.rapid_override, 0, 1) : 1;
-  control.spindle_override = control.sets_overrides ? share(symbols.spindle_override, 0.5, 1.5) : 1;
+  control.feed_override = control.sets_overrides ? share(symbols.feed_override, commands::feed_override) : 1;
+  control.rapid_override =
+      control.sets_overrides ? share(symbols.rapid_override, commands::rapid_override) : 1;
+  control.spindle_override =
+      control.sets_overrides ? share(symbols.spindle_override, commands::spindle_override) : 1;
   for (const auto& [number, message] : messages_) {
     if (!(message.inhibits_start || message.inhibits_manual) || !concerns(message, channel) ||
         !shows_message(number))

@@ -16,10 +16,10 @@
 #include "round.hpp"
 #include "running_core.hpp"
 
-namespace trunnion::plc {
+namespace trunnion::plc::structured_text_test {
 namespace {
 
-machine::Parameters text_parameters() {
+machine::Parameters parameters() {
   machine::Parameters p;
   p.values[100000] = {0, "X"};
   for (const std::uint32_t spindle : {0u, 1u}) {
@@ -46,7 +46,7 @@ PlcCore core_of(const std::string& source) {
   return core;
 }
 
-PlcCore core_of_directory(const std::string& directory, const machine::Parameters& p = text_parameters()) {
+PlcCore core_of_directory(const std::string& directory, const machine::Parameters& p = parameters()) {
   PlcCore core;
   core.configure(p, true);
   EXPECT_TRUE(load_programs(directory, core).empty()) << directory;
@@ -217,7 +217,7 @@ TEST(SimulatedDevices, APositionSwitchFollowsTheFeedbackOfItsAxis) {
 TEST(SimulatedDevices, WithOtherHardwareTheyDoNotRun) {
   const DeviceDirectory directory;
   PlcCore core;
-  core.configure(text_parameters(), true);
+  core.configure(parameters(), true);
   EXPECT_TRUE(load_programs(directory.path(), core, false).empty());
   core.advance(100);
   EXPECT_EQ(core.image().x[17], 0);
@@ -416,4 +416,4 @@ TEST(StructuredText, RetainedFilesChangeTheirSizeWithTheProgramAndLeaveNothingBe
 }
 
 }  // namespace
-}  // namespace trunnion::plc
+}  // namespace trunnion::plc::structured_text_test

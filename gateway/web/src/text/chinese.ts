@@ -79,7 +79,6 @@ export const chinese: Texts = {
   allAlarms: "全部报警列表",
   cause: "原因",
   remedy: "处理",
-  languageRemedy: "修改文本所指的程序行，然后重新启动。",
   resetAlarms: "清除报警",
   activeAlarms: "当前",
   alarmHistory: "历史",

@@ -81,7 +81,6 @@ export const english = {
   allAlarms: "List of all alarms",
   cause: "Cause",
   remedy: "Remedy",
-  languageRemedy: "Correct the line that the text names, then start again.",
   resetAlarms: "Reset alarms",
   activeAlarms: "Active",
   alarmHistory: "History",

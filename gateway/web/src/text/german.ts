@@ -79,7 +79,6 @@ export const german: Texts = {
   allAlarms: "Liste aller Alarme",
   cause: "Ursache",
   remedy: "Abhilfe",
-  languageRemedy: "Die im Text genannte Zeile berichtigen, dann neu starten.",
   resetAlarms: "Alarme löschen",
   activeAlarms: "Aktiv",
   alarmHistory: "Verlauf",
