@@ -70,16 +70,41 @@ TEST_F(ProgramCheck, TheErrorOfASubprogramIsShownAtItsCall) {
   EXPECT_EQ(answer["error"]["program"], "O0007");
 }
 
+TEST_F(ProgramCheck, AMoveOfASubprogramIsThatOfTheLineThatCallsIt) {
+  language::StringSource other("O7\nG0 X20\nM99\n"), far("O8\nG0 X9000\nM99\n");
+  machine_.resolve = [&](std::string_view name) {
+    return name == "O0007" ? &other : name == "O0008" ? &far : nullptr;
+  };
+  const auto answer = check("G54 G0 X5 Y0\n\nM98 P7\nM98 P8\nM30\n");
+  EXPECT_EQ(answer["path"]["line"], Json({1, 1, 3}));
+  EXPECT_EQ(answer["error"]["line"], 4);
+  EXPECT_EQ(answer["error"]["number"], 140);
+  EXPECT_EQ(answer["error"]["program"], "O0008");
+  EXPECT_EQ(answer["error"]["program_line"], 2);
+}
+
+TEST_F(ProgramCheck, WhatMotionRefusesIsAnError) {
+  const auto answer = check("G54 G0 X0\nG95 G1 X10 F0.1\nM30\n");
+  ASSERT_TRUE(answer.contains("error")) << "the spindle has no speed";
+  EXPECT_EQ(answer["error"]["line"], 2);
+  EXPECT_EQ(answer["error"]["number"], 1112);
+}
+
+TEST_F(ProgramCheck, AProgramThatRepeatsForEverIsCompleteAtItsReturn) {
+  const auto answer = check("G54 G0 X0\nN1 X5\nX0\nGOTO 1\n");
+  EXPECT_TRUE(answer["complete"]);
+  EXPECT_FALSE(answer.contains("error"));
+}
+
 TEST_F(ProgramCheck, AnEndlessProgramIsStopped) {
   unsigned asked = 0;
-  const auto answer = check("N1 G0 X0\nGOTO 1\n", [&] { return ++asked > 3; });
+  const auto answer = check("N1 IF [#3001 LT 1] GOTO 1\nM30\n", [&] { return ++asked > 3; });
   EXPECT_FALSE(answer["complete"]);
   EXPECT_FALSE(answer.contains("error"));
 }
 
 TEST_F(ProgramCheck, ALongPathIsCutOffAndSaysSo) {
-  const auto answer = check("G54 G0 X0 Y0\nWHILE 1 DO 1\nG1 X1 F100\nG1 X0\nEND 1\n",
-                            [asked = 0]() mutable { return ++asked > 1000; });
+  const auto answer = check("G54 G0 X0 Y0\nWHILE [#1 LT 10001] DO 1\nG1 X1 F100\nG1 X0\n#1=#1+1\nEND 1\n");
   EXPECT_FALSE(answer["path"]["whole"]);
   EXPECT_EQ(answer["path"]["x"].size(), most_path_points);
 }

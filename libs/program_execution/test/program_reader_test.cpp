@@ -66,7 +66,7 @@ TEST_F(Reading, GivesEveryCommandWithItsMoveAndTheEndOfTheOneBefore) {
 
 TEST_F(Reading, JudgesAMoveAsMotionWouldAndNotWhereTheMachineIsNotKnown) {
   const std::string no_speed = "G90 G95 F0.1\nG1 X10\nM30\n", far = "G90 F100\nG1 X401\nM30\n",
-                    tap = "G90 S400 M3\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\nM30\n";
+                    tap = "G90 S400 M3\nG0 Z5\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\nM30\n";
   EXPECT_EQ(read(no_speed), Ending::alarm);
   EXPECT_EQ(alarm(), 1112u);
   EXPECT_EQ(reader->alarm().line, 2u);
@@ -75,12 +75,12 @@ TEST_F(Reading, JudgesAMoveAsMotionWouldAndNotWhereTheMachineIsNotKnown) {
   EXPECT_EQ(reader->alarm().line, 2u);
   EXPECT_EQ(read(tap), Ending::alarm);
   EXPECT_EQ(alarm(), 1125u) << "there is no spindle";
-  EXPECT_EQ(reader->alarm().line, 2u);
+  EXPECT_EQ(reader->alarm().line, 3u);
   for (const auto& program : {no_speed, far, tap}) EXPECT_EQ(read_anywhere(program), Ending::end) << program;
 }
 
 TEST_F(Reading, StrokesOfATapAreMovesOfTheProgram) {
-  EXPECT_EQ(read_anywhere("G90 S400 M3\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\nG0 X5\nM30\n"), Ending::end);
+  EXPECT_EQ(read_anywhere("G90 S400 M3\nG0 Z5\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\nG0 X5\nM30\n"), Ending::end);
   std::size_t strokes = 0;
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (commands[i].kind != language::CommandKind::tap) continue;
