@@ -17,7 +17,7 @@ using program_execution::ProgramReader;
 
 constexpr language::SkipLevels every_level = 0x1ff;
 
-program_execution::ReadingOptions reading(const CheckOptions& options) {
+program_execution::ReadingOptions checking(const CheckOptions& options) {
   program_execution::ReadingOptions result;
   result.block_skip = options.skip_blocks ? every_level : language::SkipLevels{0};
   result.guard = options.guard;
@@ -96,14 +96,14 @@ bool check(ProgramReader& reader, const language::Environment& environment, lang
 bool check_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
                    const language::AxisValues& start, const CheckOptions& options, const TextName& name,
                    std::ostream& out) {
-  const auto reader = std::make_unique<ProgramReader>(machine, reading(options));
+  const auto reader = std::make_unique<ProgramReader>(machine, checking(options));
   return check(*reader, machine, text, start, options, name, out);
 }
 
 bool check_program(language::TextSource& text, language::Environment& environment,
                    const language::AxisValues& start, const CheckOptions& options, const TextName& name,
                    std::ostream& out) {
-  const auto reader = std::make_unique<ProgramReader>(environment, reading(options));
+  const auto reader = std::make_unique<ProgramReader>(environment, checking(options));
   return check(*reader, environment, text, start, options, name, out);
 }
 
