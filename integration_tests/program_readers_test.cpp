@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 #include <ostream>
 #include <sstream>
 
 #include "analysis/check_program.hpp"
 #include "bus/json.hpp"
 #include "channel_fixture.hpp"
+#include "collision_guard/collision_guard.hpp"
 #include "src/program_check.hpp"
+#include "tool_tables/machine_tables.hpp"
 
 namespace trunnion {
 namespace {
@@ -45,6 +48,8 @@ class ProgramReaders : public channel::testing::Channel, public ::testing::WithP
     std::ostringstream out;
     analysis::CheckOptions options;
     options.json_lines = true;
+    const auto guard = guard_of(machine);
+    options.guard = guard.get();
     analysis::check_program(
         source, machine, machine.reference_position(), options, [](std::uint32_t) { return "part.nc"; }, out);
     std::istringstream lines(out.str());
@@ -56,7 +61,8 @@ class ProgramReaders : public channel::testing::Channel, public ::testing::WithP
     channel_setup::ChannelSetup machine(0);
     configure(machine);
     language::StringSource source(GetParam().text);
-    return alarm_of(gateway::check_program(source, machine, {}));
+    const auto guard = guard_of(machine);
+    return alarm_of(gateway::check_program(source, machine, guard.get(), {}));
   }
   FirstAlarm by_channel() {
     load(GetParam().text);
@@ -69,8 +75,16 @@ class ProgramReaders : public channel::testing::Channel, public ::testing::WithP
                 static_cast<std::uint32_t>(std::strtoul(event.text.c_str() + name.size(), nullptr, 10))};
     return {};
   }
+  std::string bodies_;  ///< bodies.yaml; empty: the machine has none
 
  private:
+  std::unique_ptr<collision_guard::CollisionGuard> guard_of(const channel_setup::ChannelSetup& setup) const {
+    if (bodies_.empty()) return nullptr;
+    auto guard = std::make_unique<collision_guard::CollisionGuard>(
+        setup, machine::CollisionMode::stop, collision_guard::BodiesText{"bodies.yaml", bodies_});
+    guard->configure(*parameters, 0);
+    return guard;
+  }
   void configure(channel_setup::ChannelSetup& machine) const {
     machine.configure(*parameters);
     idl::parameters::ToolTable tools;
@@ -133,6 +147,38 @@ INSTANTIATE_TEST_SUITE_P(
                       WrongProgram{"G0 X1\nG95 G1 X10 F0.1\nM30\n", {1112, 2}},
                       WrongProgram{"S400 M3\nG0 Z5\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\nM30\n", {1125, 3}},
                       WrongProgram{"G0 X10\nG4 P100\nM3 S100\nX0\nM30\n", {0, 0}}));
+
+/// The AC machine with a post at +X.
+class ProgramReadersAmongBodies : public ProgramReaders {
+ protected:
+  void SetUp() override {
+    drive = channel::testing::FakeDrive(5);
+    auto table = std::make_shared<machine::Parameters>(
+        tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table").parameters);
+    table->values[902] = {16, ""}, table->values[903] = {32, ""};
+    parameters = table;
+    bodies_ = R"(
+structure: "[w C' A' b X Y Z (S) t]"
+clearance_mm: 1
+bodies:
+  - {name: head, on: spindle, sphere: {diameter_mm: 20}}
+  - {name: post, on: base, box: {size_mm: [20, 300, 300]}, position_mm: [110, 0, 0]}
+)";
+    ProgramReaders::SetUp();
+    core->guard(machine::CollisionMode::stop, {"bodies.yaml", bodies_});
+  }
+};
+
+TEST_P(ProgramReadersAmongBodies, FindTheSameFirstAlarm) {
+  EXPECT_EQ(by_check(), GetParam().alarm);
+  EXPECT_EQ(by_page(), GetParam().alarm);
+  EXPECT_EQ(by_channel(), GetParam().alarm);
+}
+
+// The head of radius 10 may go to X89: the post begins at X100, and the clearance is 1 mm.
+INSTANTIATE_TEST_SUITE_P(Bodies, ProgramReadersAmongBodies,
+                         ::testing::Values(WrongProgram{"G90\nG0 X80\nX150\nM30\n", {176, 3}},
+                                           WrongProgram{"G90\nG0 X80\nX0\nM30\n", {0, 0}}));
 
 }  // namespace
 }  // namespace trunnion

@@ -85,7 +85,7 @@ int run_check(const CheckOptions& options) {
     channel_setup::ChannelSetup machine(tables);
     machine.resolve = resolve;
     if (rows) machine.set_tools(tool_table(*rows));
-    const auto guard = load_guard(machine, directory, tables.parameters);
+    const auto guard = collision_guard::load_guard(machine, directory, tables.parameters, 0);
     check_options.guard = guard.get();
     good =
         analysis::check_program(text, machine, machine.reference_position(), check_options, name, std::cout);

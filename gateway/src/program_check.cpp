@@ -86,10 +86,13 @@ class Path {
 
 Json error_of(const ProgramReader& reader) {
   const auto& alarm = reader.alarm();
+  // Bodies and positions of a contact are more than an alarm of the language has room for.
+  const auto& whole = reader.alarm_text();
+  const std::string text = alarm.column == 0 ? whole.substr(whole.find(": ") + 2) : alarm.text.data();
   Json error = {{"line", alarm.line},
                 {"column", alarm.column},
                 {"number", static_cast<unsigned>(alarm.number)},
-                {"text", std::string(alarm.text.data())}};
+                {"text", text}};
   if (alarm.program == 0) return error;
   error["program"] = std::string(language::ProgramName(alarm.program).view());
   error["program_line"] = alarm.line;
@@ -101,8 +104,10 @@ Json error_of(const ProgramReader& reader) {
 }  // namespace
 
 Json check_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
-                   const std::function<bool()>& stop) {
-  const auto reader = std::make_unique<ProgramReader>(machine);
+                   program_execution::MoveGuard* guard, const std::function<bool()>& stop) {
+  program_execution::ReadingOptions options;
+  options.guard = guard;
+  const auto reader = std::make_unique<ProgramReader>(machine, options);
   Path path(machine);
   std::uint64_t moved = 0;
   reader->stop = stop;

@@ -14,11 +14,11 @@ using bus::Json;
 
 class ProgramCheck : public testing::Test {
  protected:
-  Json check(
-      std::string_view text, const std::function<bool()>& stop = [] { return false; }) {
+  Json check(std::string_view text, const std::function<bool()>& stop = {}) {
     language::StringSource source(text);
-    return check_program(source, machine_, stop);
+    return check_program(source, machine_, guard_, stop);
   }
+  program_execution::MoveGuard* guard_ = nullptr;
   channel_setup::ChannelSetup machine_{tool_tables::load_machine_tables(MACHINES_DIRECTORY "/ac-table")};
 };
 
@@ -88,6 +88,36 @@ TEST_F(ProgramCheck, WhatMotionRefusesIsAnError) {
   ASSERT_TRUE(answer.contains("error")) << "the spindle has no speed";
   EXPECT_EQ(answer["error"]["line"], 2);
   EXPECT_EQ(answer["error"]["number"], 1112);
+}
+
+/// A body beyond X20, found at the second time it is asked for.
+class BodyBeyond final : public program_execution::MoveGuard {
+ public:
+  void begin_run() override {}
+  void begin_call() override {}
+  Verdict check(const language::AxisValues&, const language::Command& move) override {
+    if (++asked_ % 2 == 1) return Verdict::unfinished;
+    if (move.target[language::X] <= 20) return Verdict::free;
+    text_ = std::to_string(move.line) + ": head and post would come nearer than 2 mm" + std::string(200, '.');
+    return Verdict::contact;
+  }
+  const std::string& contact_text() const override { return text_; }
+
+ private:
+  unsigned asked_ = 0;
+  std::string text_;
+};
+
+TEST_F(ProgramCheck, BodiesThatWouldMeetAreAnErrorWithTheirWholeText) {
+  BodyBeyond body;
+  guard_ = &body;
+  const auto answer = check("G54 G0 X5\nX20\nX25\nM30\n");
+  ASSERT_TRUE(answer.contains("error"));
+  EXPECT_EQ(answer["error"]["line"], 3);
+  EXPECT_EQ(answer["error"]["number"], 176);
+  EXPECT_EQ(answer["error"]["text"].get<std::string>(),
+            "head and post would come nearer than 2 mm" + std::string(200, '.'));
+  EXPECT_EQ(answer["moves"], 2);
 }
 
 TEST_F(ProgramCheck, AProgramThatRepeatsForEverIsCompleteAtItsReturn) {
