@@ -38,7 +38,7 @@ class Api {
       : mailbox_(mailbox),
         contract_(std::move(contract)),
         web_(std::move(web)),
-        checker_(mailbox),
+        checker_(mailbox, measurement.machine.directory),
         planner_(mailbox),
         recordings_(std::move(recordings)),
         access_(std::move(access), recordings_.worker()),

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "collision_guard/collision_guard.hpp"
 #include "src/program_check.hpp"
 #include "stored_texts.hpp"
 
@@ -34,10 +35,12 @@ Answer ProgramChecker::run(const Job& job) {
     machine.set_offsets(*snapshot.offsets);
     StoredTexts texts(mailbox_);
     machine.resolve = [&texts](std::string_view name) { return texts.find(name); };
+    const auto guard =
+        collision_guard::load_guard(machine, machine_directory_, *snapshot.values, job.channel);
     language::StringSource text(job.text);
     const auto until = Clock::now() + std::chrono::duration<double>(longest);
-    auto answer =
-        json_answer(200, check_program(text, machine, [&] { return stopping_ || Clock::now() > until; }));
+    auto answer = json_answer(
+        200, check_program(text, machine, guard.get(), [&] { return stopping_ || Clock::now() > until; }));
     answer.asked = texts.asked();
     return answer;
   } catch (const std::exception& error) {

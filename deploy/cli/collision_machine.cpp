@@ -29,17 +29,6 @@ void put_tool(collision::MachineBodies& bodies, const CylinderTool& tool) {
   bodies.set.bodies.push_back(collision::tool_body(bodies.links, tool.length, tool.radius));
 }
 
-std::unique_ptr<collision_guard::CollisionGuard> load_guard(const channel_setup::ChannelSetup& machine,
-                                                            const std::string& directory,
-                                                            const machine::Parameters& parameters) {
-  const auto mode = machine::load_collision_mode(directory);
-  if (mode == machine::CollisionMode::off) return nullptr;
-  auto guard = std::make_unique<collision_guard::CollisionGuard>(
-      machine, mode, collision_guard::load_bodies_text(directory));
-  guard->configure(parameters, 0);
-  return guard;
-}
-
 void print_warnings(collision_guard::CollisionGuard* guard, const std::string& program) {
   if (guard == nullptr) return;
   for (const auto& line : guard->take_warnings())

@@ -78,7 +78,7 @@ int run_plan(const Plan& plan) {
     for (const char letter : axes.letters) std::fprintf(file.get(), ",%c", letter);
     std::fprintf(file.get(), ",tip_x,tip_y,tip_z,feed\n");
   }
-  const auto guard = load_guard(machine, directory, tables.parameters);
+  const auto guard = collision_guard::load_guard(machine, directory, tables.parameters, 0);
   PlanPicture picture(machine.cycle_seconds());
   const auto report = analysis::plan_program(
       text, machine, machine.reference_position(),

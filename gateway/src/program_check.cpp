@@ -6,9 +6,8 @@
 #include <memory>
 
 #include "language/arc_geometry.hpp"
-#include "language/interpreter.hpp"
 #include "language/macro_call.hpp"
-#include "machine/alarm_constants.hpp"
+#include "program_execution/program_reader.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -17,8 +16,9 @@ using bus::Json;
 using language::AxisValues;
 using language::Command;
 using language::CommandKind;
+using program_execution::Ending;
+using program_execution::ProgramReader;
 
-constexpr unsigned steps_between_stops = 256;
 constexpr double degrees_of_piece = 6;  ///< of arcs and of the swings of rotary axes
 constexpr double decimals = 1e4;
 
@@ -84,73 +84,45 @@ class Path {
   bool whole_ = true;
 };
 
-Json error_of(const language::Alarm& alarm) {
+Json error_of(const ProgramReader& reader) {
+  const auto& alarm = reader.alarm();
+  // Bodies and positions of a contact are more than an alarm of the language has room for.
+  const auto& whole = reader.alarm_text();
+  const std::string text = alarm.column == 0 ? whole.substr(whole.find(": ") + 2) : alarm.text.data();
   Json error = {{"line", alarm.line},
                 {"column", alarm.column},
                 {"number", static_cast<unsigned>(alarm.number)},
-                {"text", std::string(alarm.text.data())}};
+                {"text", text}};
   if (alarm.program == 0) return error;
   error["program"] = std::string(language::ProgramName(alarm.program).view());
   error["program_line"] = alarm.line;
   error["column"] = 0;
-  error["line"] = alarm.calls > 0 ? alarm.chain[0].line : 0;
+  error["line"] = alarm.calls > 0 ? alarm.chain[0].line : reader.interpreter().main_line();
   return error;
-}
-
-/// `text` is that of ChannelSetup::travel_error: "LINE: ...".
-Json travel_error(const std::string& text, std::uint32_t line) {
-  const auto colon = text.find(": ");
-  return {{"line", line},
-          {"column", 0},
-          {"number", alarm::travel_limit.number},
-          {"text", colon == std::string::npos ? text : text.substr(colon + 2)}};
 }
 
 }  // namespace
 
 Json check_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
-                   const std::function<bool()>& stop) {
-  using language::Step;
-  language::InterpreterOptions options;
-  options.repeat = false;
-  // Too large for the stack of a small thread.
-  const auto interpreter = std::make_unique<language::Interpreter>(machine, options);
-  AxisValues from = machine.reference_position();
-  interpreter->start(text, from, machine.power_on());
+                   program_execution::MoveGuard* guard, const std::function<bool()>& stop) {
+  program_execution::ReadingOptions options;
+  options.guard = guard;
+  const auto reader = std::make_unique<ProgramReader>(machine, options);
   Path path(machine);
-  Json answer = {{"complete", true}};
   std::uint64_t moved = 0;
-  std::uint32_t line = 0;  // of the text: a subprogram's moves are those of the line that calls it
-  Command command;
-  unsigned steps = 0;
-  for (Step step = Step::working; step != Step::end;) {
-    if (++steps % steps_between_stops == 0 && stop()) {
-      answer["complete"] = false;
-      break;
-    }
-    step = interpreter->next(command);
-    if (step == Step::alarm) {
-      answer["error"] = error_of(interpreter->alarm());
-      break;
-    }
-    // No probe: the move to a skip signal ends where it was to end at the latest.
-    if (step == Step::position) interpreter->set_position(command.target);
-    // No other service: its cycle has no parts.
-    if (step == Step::answer) interpreter->answer(0);
-    if (step != Step::command) continue;
-    if (command.program == 0) line = command.line;
-    if (command.kind == CommandKind::transformation) from = command.target;
-    if (!moves(command)) continue;
-    const auto breach = machine.travel_error(from, command);
-    if (!breach.empty()) {
-      answer["error"] = travel_error(breach, line);
-      break;
-    }
-    path.add(from, command, line);
-    from = command.target;
+  reader->stop = stop;
+  reader->on_command = [&](const Command& command, const Command&) {
+    if (!moves(command)) return;
+    // Of the text: a subprogram's moves are those of the line that calls it.
+    path.add(reader->from(), command,
+             command.program == 0 ? command.line : reader->interpreter().main_line());
     ++moved;
-  }
-  answer["blocks"] = interpreter->blocks();
+  };
+  const auto ending = reader->read(text, machine.reference_position());
+  const bool whole = ending == Ending::end || ending == Ending::repeats || ending == Ending::alarm;
+  Json answer = {{"complete", whole}};
+  if (ending == Ending::alarm) answer["error"] = error_of(*reader);
+  answer["blocks"] = reader->interpreter().blocks();
   answer["moves"] = moved;
   answer["path"] = path.json();
   return answer;

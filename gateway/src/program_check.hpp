@@ -8,6 +8,7 @@
 #include "bus/json.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "language/text_source.hpp"
+#include "program_execution/move_guard.hpp"
 
 namespace trunnion::gateway {
 
@@ -15,10 +16,9 @@ namespace trunnion::gateway {
 inline constexpr std::size_t most_path_points = 20000;
 
 /// The answer ProgramCheck of openapi.json. `machine` is configured and finds the subprograms. From its
-/// reference position to the end of the program, where M99 in `text` is one; block skip is off and a probe
-/// never touches. `stop` is asked every few hundred steps of the interpreter; when it is true the answer is
-/// not complete.
+/// reference position as program_execution::ProgramReader reads; block skip is off. `guard` may be null. When
+/// `stop` is true the answer is not complete.
 bus::Json check_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
-                        const std::function<bool()>& stop);
+                        program_execution::MoveGuard* guard, const std::function<bool()>& stop);
 
 }  // namespace trunnion::gateway

@@ -49,6 +49,12 @@ TEST_F(ProgramPlan, EndsAtTheLineThatCannotBeExecutedAndSaysWhy) {
   EXPECT_NEAR(answer["path"]["x"].back().get<double>(), 60, 1e-3) << "what is before it is on the path";
 }
 
+TEST_F(ProgramPlan, GoesOnBehindACycleOfAnotherService) {
+  const auto answer = plan("G54 G0 X0\nG65 P9010\nG1 X[20+#3100] F6000\nM30\nO9010\n#3100=12\nM99\n");
+  EXPECT_FALSE(answer.contains("alarm")) << answer["alarm"];
+  EXPECT_NEAR(answer["path"]["x"].back().get<double>(), 20, 1e-3) << "the cycle has no parts";
+}
+
 TEST_F(ProgramPlan, IsNotCompleteWhenItsTimeIsOver) {
   int asked = 0;
   const auto answer = plan("G54 G0 X0\nG1 X60 F60\nM30\n", [&] { return ++asked > 10; });

@@ -6,17 +6,16 @@
 
 #include "analysis/time_scaling.hpp"
 
-#include "language/codes.hpp"
 #include "motion/axis_motion.hpp"
-#include "program_execution/program_flow.hpp"
-#include "program_execution/tapping.hpp"
+#include "motion/trajectory.hpp"
+#include "program_execution/program_reader.hpp"
 
 namespace trunnion::analysis {
 namespace {
 
 using language::Command;
 using language::CommandKind;
-using program_execution::FlowState;
+using program_execution::Ending;
 
 bool is_move(const Command& command) {
   return command.kind == CommandKind::rapid || command.kind == CommandKind::line ||
@@ -25,17 +24,19 @@ bool is_move(const Command& command) {
 
 constexpr std::uint64_t no_limit = 100000000;  // cycles
 
-// In a row, which may bring no move.
-constexpr std::uint64_t most_lines = 100000000;
-
 constexpr std::uint64_t cycles_between_stops = 256;
 
-// The channel without a cluster: moves come through the same ProgramFlow, and what the channel asks of
-// others while the axes stand is done at once.
-class Runner {
+program_execution::ReadingOptions planning(program_execution::MoveGuard* guard) {
+  program_execution::ReadingOptions options;
+  options.guard = guard;
+  options.find_repetition = false;
+  return options;
+}
+
+// The channel's motion without a cluster: it steps while there is something to do.
+class Runner final : public program_execution::ProgramMotion {
  public:
-  Runner(channel_setup::ChannelSetup& machine, const AxisValues& start,
-         const std::function<void(const PlannedCycle&)>& sink,
+  Runner(channel_setup::ChannelSetup& machine, const std::function<void(const PlannedCycle&)>& sink,
          const std::function<void(const Command&, const FrameMoves&)>& moves, std::uint64_t most_cycles,
          program_execution::MoveGuard* guard, const std::function<bool()>& stop)
       : machine_(machine),
@@ -44,119 +45,52 @@ class Runner {
         most_(most_cycles),
         stop_(stop),
         trajectory_(machine.limits(), &machine.chain(), machine.cycle_seconds()),
-        flow_(machine, {0, false}) {
-    frame_.start = start;
-    flow_.set_guard(guard);
-    flow_.on_move = [this](const Command& move) {
-      ++result_.blocks;
-      if (moves_) moves_(move, frame_);
-    };
+        reader_(machine, planning(guard), this) {
+    reader_.stop = stop;
+    reader_.on_command = [this](const Command& command, const Command& move) { pass(command, move); };
   }
 
-  ProgramResult run(language::TextSource& text) {
-    trajectory_.start(frame_.start, frame_.transformation, 0);
-    flow_.start(trajectory_, text, frame_.start, machine_.power_on(), variables_);
-    do {
-      flow_.set_cycle(result_.cycles);
-      // Axes that follow without delay are in position in the first cycle whose feedback can be known.
-      trajectory_.set_position_check(
-          machine_.checks_exact_stops() && !tapping_.active() ? static_cast<int>(machine_.lead()) + 2 : 0);
-      state_ = skip_on_its_way_ ? FlowState::full : flow_.fill(false);
-    } while (state_ == FlowState::waiting ? go_on_reading()
-             : trajectory_.at_rest()      ? go_on_at_rest()
-                                          : step());
+  ProgramResult run(language::TextSource& text, const AxisValues& start) {
+    frame_.start = start;
+    switch (reader_.read(text, start)) {
+      case Ending::end:
+      case Ending::repeats:
+        result_.good = true;
+        break;
+      case Ending::alarm:
+        result_.alarm = reader_.alarm_text() + " (alarm " +
+                        std::to_string(static_cast<unsigned>(reader_.alarm().number)) + ")";
+        break;
+      case Ending::idle:
+        result_.alarm = "The program repeats without a move";
+        break;
+      case Ending::text_missing:
+        result_.alarm = "The text ends in the middle of reading";
+        break;
+      case Ending::stopped:
+        result_.stopped = result_.alarm.empty();
+        break;
+    }
     return result_;
   }
 
- private:
-  bool go_on_reading() {
-    if (flow_.text_missing()) return fail("The text ends in the middle of reading");
-    return (stop_ && stop_()) ? end_here() : true;
+  motion::MoveTaker& moves() override { return trajectory_; }
+  void prepare(program_execution::ProgramFlow& flow, bool tapping) override {
+    flow.set_cycle(result_.cycles);
+    // Axes that follow without delay are in position in the first cycle whose feedback can be known.
+    trajectory_.set_position_check(
+        machine_.checks_exact_stops() && !tapping ? static_cast<int>(machine_.lead()) + 2 : 0);
   }
+  bool at_rest() const override { return trajectory_.at_rest(); }
+  const AxisValues& position() const override { return trajectory_.position(); }
+  void set_limits(const motion::Limits& limits) override { trajectory_.set_limits(limits); }
 
-  bool go_on_in_loop() {
-    if (stop_ && stop_()) return end_here();
-    if (flow_.lines_without_motion() > most_lines) return fail("The program repeats without a move");
-    flow_.read_on();
-    return true;
-  }
-
-  // As ChannelCore::run_pending.
-  bool go_on_at_rest() {
-    if (skip_on_its_way_) {
-      skip_on_its_way_ = false;
-      flow_.skip_ended({trajectory_.position(), trajectory_.position()});
-      return true;
-    }
-    if (tapping_.active()) {
-      tapping_.end();
-      begin_tapping(false, machine_.limits());
-      return true;
-    }
-    if (state_ == FlowState::alarm)
-      return fail(flow_.alarm_text() + " (alarm " + std::to_string(flow_.alarm_number()) + ")");
-    if (state_ == FlowState::end) {
-      result_.good = true;
+  bool step() override {
+    if (stop_ && result_.cycles % cycles_between_stops == 0 && stop_()) return false;
+    if (result_.cycles >= most_) {
+      result_.alarm = "The program has not ended after " + std::to_string(most_) + " cycles";
       return false;
     }
-    if (state_ == FlowState::loop) return go_on_in_loop();
-    return state_ != FlowState::command || take(flow_.pending());
-  }
-
-  bool take(const Command& command) {
-    switch (command.kind) {
-      case CommandKind::end:
-        result_.good = true;
-        return false;
-      case CommandKind::skip:
-        skip_on_its_way_ = flow_.push_pending() != FlowState::alarm;
-        return true;
-      case CommandKind::tap: {
-        const auto& spindle = machine_.tapping_spindle(command.number);
-        if (!spindle.axis) {
-          flow_.refuse_pending(language::AlarmNumber::tapping_spindle_missing);
-          return true;
-        }
-        tapping_.begin(trajectory_.position(), command);
-        begin_tapping(true, tapping_.limits(machine_.limits(), spindle.acceleration));
-        return true;
-      }
-      case CommandKind::transformation:
-        frame_.transformation = command.modal.transformation;
-        frame_.tool_length = command.modal.tool_length;
-        trajectory_.start(command.target, frame_.transformation, frame_.tool_length);
-        break;
-      default:
-        if (language::changes_machine(command))
-          trajectory_.start(trajectory_.position(), frame_.transformation, frame_.tool_length);
-        break;
-    }
-    frame_.start = trajectory_.position();
-    if (moves_) moves_(command, frame_);
-    flow_.finish_pending();
-    return true;
-  }
-
-  void begin_tapping(bool on, const motion::Limits& limits) {
-    trajectory_.set_limits(limits);
-    trajectory_.start(trajectory_.position(), frame_.transformation, frame_.tool_length);
-    flow_.set_tapping(on);
-  }
-
-  bool end_here() {
-    result_.stopped = true;
-    return false;
-  }
-
-  bool fail(const std::string& why) {
-    result_.alarm = why;
-    return false;
-  }
-
-  bool step() {
-    if (stop_ && result_.cycles % cycles_between_stops == 0 && stop_()) return end_here();
-    if (result_.cycles >= most_)
-      return fail("The program has not ended after " + std::to_string(most_) + " cycles");
     const motion::Setpoint setpoint = trajectory_.step(1, 1, false);
     if (sink_) {
       PlannedCycle cycle;
@@ -173,17 +107,25 @@ class Runner {
     return true;
   }
 
+ private:
+  void pass(const Command& command, const Command& move) {
+    if (is_move(move)) {
+      ++result_.blocks;
+    } else if (command.kind == CommandKind::end) {
+      return;
+    } else {
+      frame_ = {trajectory_.position(), reader_.transformation(), reader_.tool_length()};
+    }
+    if (moves_) moves_(move, frame_);
+  }
+
   channel_setup::ChannelSetup& machine_;
   const std::function<void(const PlannedCycle&)>& sink_;
   const std::function<void(const Command&, const FrameMoves&)>& moves_;
   std::uint64_t most_;
   const std::function<bool()>& stop_;
   motion::Trajectory trajectory_;
-  language::VariableStore variables_;
-  program_execution::ProgramFlow flow_;
-  FlowState state_ = FlowState::full;
-  program_execution::Tapping tapping_;
-  bool skip_on_its_way_ = false;
+  program_execution::ProgramReader reader_;
   FrameMoves frame_;
   ProgramResult result_;
 };
@@ -195,7 +137,7 @@ ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetu
                           const std::function<void(const Command&, const FrameMoves&)>& moves,
                           std::uint64_t most_cycles, program_execution::MoveGuard* guard,
                           const std::function<bool()>& stop) {
-  return std::make_unique<Runner>(machine, start, sink, moves, most_cycles, guard, stop)->run(text);
+  return std::make_unique<Runner>(machine, sink, moves, most_cycles, guard, stop)->run(text, start);
 }
 
 PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup& machine,

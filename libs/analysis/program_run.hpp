@@ -40,8 +40,8 @@ struct ProgramResult {
 
 /// Runs `text` from the machine position `start`: every cycle goes to `sink`, every stretch of moves to
 /// `frames`, before its cycles; both may be empty. `most_cycles` ends a program that does not. `guard` looks
-/// at the moves as in the channel; it may be null. `stop` is asked every few hundred cycles, and as often
-/// while a program repeats without a move; when it is true the run ends there.
+/// at the moves as in the channel; it may be null. `stop` is asked every few hundred cycles, where the axes
+/// stand, and while a program repeats without a move; when it is true the run ends there.
 ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
                           const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
                           const std::function<void(const language::Command&, const FrameMoves&)>& moves,

@@ -225,4 +225,14 @@ std::string CollisionGuard::words() const {
   return out;
 }
 
+std::unique_ptr<CollisionGuard> load_guard(const channel_setup::ChannelSetup& machine,
+                                           const std::string& directory,
+                                           const machine::Parameters& parameters, std::uint16_t channel) {
+  const auto mode = machine::load_collision_mode(directory);
+  if (mode == CollisionMode::off) return nullptr;
+  auto guard = std::make_unique<CollisionGuard>(machine, mode, load_bodies_text(directory));
+  guard->configure(parameters, channel);
+  return guard;
+}
+
 }  // namespace trunnion::collision_guard

@@ -2,6 +2,7 @@
 // Moves of a channel among the bodies of its machine, checked before motion gets them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -111,5 +112,11 @@ class CollisionGuard : public program_execution::MoveGuard {
   std::optional<std::pair<std::size_t, std::size_t>> warned_;  ///< bodies, until a move is free
   std::vector<std::string> warnings_;
 };
+
+/// The check that machine.yaml in `directory` demands of a channel; null when it is off. `machine` must
+/// outlive it. Throws as CollisionGuard::configure().
+std::unique_ptr<CollisionGuard> load_guard(const channel_setup::ChannelSetup& machine,
+                                           const std::string& directory,
+                                           const machine::Parameters& parameters, std::uint16_t channel);
 
 }  // namespace trunnion::collision_guard

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "motion/join_policy.hpp"
+#include "motion/programmed_move.hpp"
 
 namespace trunnion::motion {
 namespace {
@@ -13,17 +14,12 @@ using canonical::axis_count;
 using canonical::Command;
 using canonical::CommandKind;
 
-constexpr double longest_dwell_cycles = 1e9;
 // Blocks kept behind the oldest that may be moved on, since roundings reach back.
 constexpr std::uint64_t blocks_behind = 2 * BlendedPath::most_joins + 8;
 // A path at rest is started again beyond this length, mm or degrees: its coordinate becomes too coarse.
 constexpr double longest_path = 1e5;
 // Moves shorter than this share of the tolerance are joined to the next one.
 constexpr double merge_share = 0.05;
-
-bool is_finite(const AxisValues& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
 
 ModeLimits effective(const Limits& limits, double cycle) {
   ModeLimits modes;
@@ -101,17 +97,6 @@ bool Trajectory::push_from(const Command& command, double fraction) {
   return fraction >= 0 && fraction <= 1 && push_move(command, fraction);
 }
 
-// Every axis that has to move needs limits above zero; through a chain any move may move X Y Z.
-bool Trajectory::movable(const AxisValues& from, const AxisValues& to) const {
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    if (from[i] == to[i] && (active_chain_ == nullptr || i > canonical::Z)) continue;
-    const AxisLimits& axis = limits_[mode_].axes[i];
-    if (!(axis.velocity > 0 && axis.rapid_velocity > 0 && axis.acceleration > 0 && axis.jerk > 0))
-      return false;
-  }
-  return true;
-}
-
 // A move far below the tolerance is merged with the next one: so short a segment has no usable direction.
 bool Trajectory::joins_to_last(const PathSegment& segment) const {
   if (segment.is_arc() || (path_.size() == 0 && compressor_.empty())) return false;
@@ -143,53 +128,29 @@ void Trajectory::change_mode(const Command& command) {
 
 bool Trajectory::push_move(const Command& command, double fraction) {
   if (!can_accept()) return false;
-  if (command.modal.smoothing >= path_modes || !std::isfinite(command.modal.path_tolerance)) return false;
+  const auto move =
+      programmed_move(command, end_, fraction, limits_[mode_], active_chain_ != nullptr, cycle_);
+  if (!move) return false;
   PathBlock block;
   block.line = command.line;
   block.sequence = command.sequence;
   block.fraction_offset = fraction;
+  block.path = move->path;
   const bool fresh = at_rest();
   if (command.kind == CommandKind::dwell) {
-    const double cycles = std::ceil(command.dwell_seconds * (1 - fraction) / cycle_ - 1e-9);
-    if (!(cycles >= 0) || cycles > longest_dwell_cycles) return false;
     if (fresh && path_.end() > longest_path) restart_path();
     flush();
-    block.path = PathSegment::line(end_, end_);
     block.mode = mode_;
     block.rules = rules_;
-    block.wait_cycles = static_cast<int>(cycles);
+    block.wait_cycles = move->wait_cycles;
     stop_next_ = exact_next_ = true;
     append(block);
     stop_next_ = exact_next_ = true;
     return true;
   }
-  if (!is_finite(command.target)) return false;
-  if (command.kind == CommandKind::arc) {
-    canonical::Arc arc = command.arc;
-    if (!(arc.sweep >= 0) || !std::isfinite(arc.sweep)) return false;
-    if (fraction > 0) arc.sweep = remaining_sweep(end_, command.target, arc, fraction);
-    if (!std::all_of(arc.centre.begin(), arc.centre.end(), [](double v) { return std::isfinite(v); }))
-      return false;
-    block.path =
-        arc.sweep > 0 ? PathSegment::arc(end_, command.target, arc) : PathSegment::line(end_, command.target);
-  } else if (command.kind == CommandKind::line || command.kind == CommandKind::rapid) {
-    block.path = PathSegment::line(end_, command.target);
-  } else {
-    return false;
-  }
   block.rapid = command.kind == CommandKind::rapid;
-  const bool inverse = command.modal.feed_mode == canonical::FeedMode::inverse_time;
+  block.feed = move->feed;
   const double length = block.path.length();
-  // Inverse time is the feed of the whole command: what is left of it takes its share of the time.
-  const double whole = fraction < 1 ? length / (1 - fraction) : length;
-  const bool combined = limits_[mode_].combined_feed && active_chain_ == nullptr;
-  block.feed = command.modal.feed / 60 *
-               (inverse    ? whole
-                : combined ? block.path.combined_feed_scale()
-                           : block.path.feed_scale());
-  if (!std::isfinite(length)) return false;
-  if (length > 0 && !block.rapid && !(block.feed > 0 && std::isfinite(block.feed))) return false;
-  if (!movable(end_, command.target)) return false;
   if (length > 0) {
     if (fresh && path_.end() > longest_path) restart_path();
     change_mode(command);

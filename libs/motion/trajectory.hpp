@@ -11,6 +11,7 @@
 #include "motion/compressor.hpp"
 #include "motion/interpolation.hpp"
 #include "motion/limits.hpp"
+#include "motion/move_taker.hpp"
 #include "motion/planned_speed.hpp"
 #include "motion/speed_stage.hpp"
 
@@ -20,7 +21,7 @@ namespace trunnion::motion {
 /// keeps its limits of velocity, acceleration and jerk under any overrides, and the path its tolerances.
 /// Deterministic: the setpoints depend only on the calls and the cycle in which they were made. After
 /// construction nothing allocates.
-class Trajectory {
+class Trajectory final : public MoveTaker {
  public:
   /// Executed blocks kept for retrace(): moves, or pieces of a short line, which seldom has more than one.
   static constexpr std::uint64_t history = 5000;
@@ -32,24 +33,24 @@ class Trajectory {
   /// At rest at `position` in the frame of `transformation`, with `tool_length` in mm. Drops everything
   /// pushed. A change of frame or tool length is: finish, wait for at_rest, start with the same place in the
   /// new frame.
-  void start(const AxisValues& position, canonical::Transformation transformation, double tool_length);
+  void start(const AxisValues& position, canonical::Transformation transformation,
+             double tool_length) override;
 
   /// Other limits, from the next start() on.
   void set_limits(const Limits& limits);
 
   /// Room for at least one more command. Of a run of short lines some hundred are not yet on the path: the
   /// curve that replaces them depends on those behind them.
-  bool can_accept() const;
+  bool can_accept() const override;
 
   /// Appends a rapid, line, arc or dwell in the frame given to start(). Motion begins as soon as enough is
-  /// known. False, and nothing changed, when there is no room, the kind is another, or the numbers make no
-  /// move (not finite, feed or sweep not above 0, an axis without limits above 0). A move without length is
-  /// accepted and does nothing. per_revolution feeds must have been converted to mm/min.
-  bool push(const canonical::Command& command);
+  /// known. False, and nothing changed, when there is no room, or programmed_move() gives nothing. A move
+  /// without length is accepted and does nothing. per_revolution feeds must have been converted to mm/min.
+  bool push(const canonical::Command& command) override;
 
   /// Appends the rest of a command of which `fraction` (0..1) is done, from the end of what was pushed: a
   /// line from there to the target, an arc with the remaining sweep, a dwell of the remaining time.
-  bool push_from(const canonical::Command& command, double fraction);
+  bool push_from(const canonical::Command& command, double fraction) override;
 
   /// Each move with PathControl::exact_stop that is pushed from now on is followed by a standstill of at most
   /// `cycles`, until end_position_check(); 0: it is not. start() sets 0.
@@ -62,7 +63,7 @@ class Trajectory {
 
   /// Nothing follows yet: lets the motion run to the end of the last command and stop there. Commands may
   /// be pushed afterwards; they start behind that stop.
-  void finish();
+  void finish() override;
 
   /// Brakes on the path and drops what is left. When at_rest, position() is where it stopped.
   void abort();
@@ -84,14 +85,13 @@ class Trajectory {
   /// Last setpoint's position.
   const AxisValues& position() const { return interpolation_.position(); }
   /// End of everything pushed.
-  const AxisValues& end_position() const { return end_; }
+  const AxisValues& end_position() const override { return end_; }
   /// See SpeedStage::stopping_cycles.
   std::uint64_t stopping_cycles() const { return speed_.stopping_cycles(); }
 
  private:
   bool push_move(const canonical::Command& command, double fraction);
   void push_position_check(const canonical::Command& command);
-  bool movable(const AxisValues& from, const AxisValues& to) const;
   bool joins_to_last(const PathSegment& segment) const;
   void append(PathBlock block);
   void take_blocks();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_execution/program_flow.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "machine/alarm_constants.hpp"
@@ -31,11 +32,10 @@ bool is_path(CommandKind kind) {
 
 }  // namespace
 
-void ProgramFlow::start(motion::Trajectory& trajectory, language::TextSource& text,
-                        const AxisValues& position, const language::ModalState& initial,
-                        const language::VariableStore& variables, const Entry& entry,
-                        language::Beginning beginning) {
-  trajectory_ = &trajectory;
+void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, const AxisValues& position,
+                        const language::ModalState& initial, const language::VariableStore& variables,
+                        const Entry& entry, language::Beginning beginning) {
+  motion_ = &motion;
   if (guard_ != nullptr) guard_->begin_run();
   interpreter_.start(text, position, initial, variables, beginning);
   interpreter_.stop_before_line(entry.line);
@@ -54,35 +54,52 @@ void ProgramFlow::start(motion::Trajectory& trajectory, language::TextSource& te
   modals_.add(0, initial);
   auxiliaries_.clear();
   const bool rtcp = initial.transformation == language::Transformation::rtcp;
-  extent_ =
-      channel_setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position, initial.tool_length) : position);
+  extent_ = channel_setup::AxisBox::of(rtcp ? environment_.machine_from_tip(position, initial.tool_length)
+                                            : position);
   alarm_ = nullptr;
   alarm_text_.clear();
+  placed_alarm_ = {};
+}
+
+// The text behind the place, as far as there is room.
+void ProgramFlow::place_alarm(std::uint32_t program, std::uint32_t line) {
+  placed_alarm_ = {};
+  placed_alarm_.number = static_cast<language::AlarmNumber>(alarm_number());
+  placed_alarm_.program = program;
+  placed_alarm_.line = line;
+  std::string_view words(alarm_text_);
+  if (const auto colon = words.find(": "); colon != std::string_view::npos) words.remove_prefix(colon + 2);
+  std::copy_n(words.begin(), std::min(words.size(), placed_alarm_.text.size() - 1),
+              placed_alarm_.text.begin());
 }
 
 FlowState ProgramFlow::fail(const machine::AlarmDefinition& alarm, const std::string& text) {
   alarm_ = &alarm;
   alarm_text_ = text;
-  trajectory_->finish();
+  place_alarm(command_.program, command_.line);
+  motion_->finish();
   return FlowState::alarm;
 }
 
 FlowState ProgramFlow::fail_search(const std::string& why) {
-  return fail(alarm::search_failed, std::to_string(entry_.line) + ": " + why);
+  fail(alarm::search_failed, std::to_string(entry_.line) + ": " + why);
+  place_alarm(0, entry_.line);
+  return FlowState::alarm;
+}
+
+std::string ProgramFlow::travel_error(const AxisValues& from) {
+  if (machine_ == nullptr) return "";
+  if (!offset_) return machine_->travel_error(from, command_);
+  const auto extent = channel_setup::extent_of(from, command_, machine_->chain());
+  auto error = machine_->travel_error(extent, *offset_, command_.line);
+  if (error.empty()) extent_.include(extent);
+  return error;
 }
 
 FlowState ProgramFlow::push_move() {
-  const auto& from = trajectory_->end_position();
+  const auto& from = motion_->end_position();
   if (command_.kind != CommandKind::dwell) {
-    std::string error;
-    if (offset_) {
-      const auto extent = channel_setup::extent_of(from, command_, machine_.chain());
-      error = machine_.travel_error(extent, *offset_, command_.line);
-      if (error.empty()) extent_.include(extent);
-    } else {
-      error = machine_.travel_error(from, command_);
-    }
-    if (!error.empty()) return fail(alarm::travel_limit, error);
+    if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
     if (const auto state = ask_guard(from); state != FlowState::full) return state;
   }
   auto move = command_.kind == CommandKind::tap ? Tapping::line(command_) : command_;
@@ -95,7 +112,7 @@ FlowState ProgramFlow::push_move() {
     move.modal.feed_mode = language::FeedMode::per_minute;
   }
   const bool partly = entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0;
-  const bool taken = partly ? trajectory_->push_from(move, entry_.restart.fraction) : trajectory_->push(move);
+  const bool taken = partly ? motion_->push_from(move, entry_.restart.fraction) : motion_->push(move);
   if (!taken)
     return fail(language::AlarmNumber::feed_not_positive,
                 "feed must be above zero (per revolution: with the spindle turning)");
@@ -131,7 +148,7 @@ FlowState ProgramFlow::push_pending() {
     state = push_move();
   }
   refused_ = state == FlowState::alarm;
-  trajectory_->finish();
+  motion_->finish();
   return state;
 }
 
@@ -176,7 +193,7 @@ FlowState ProgramFlow::arrive_at_line() {
   modals_.clear();
   modals_.add(0, modal);
   const bool rtcp = modal.transformation == language::Transformation::rtcp;
-  extent_ = channel_setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position(), modal.tool_length)
+  extent_ = channel_setup::AxisBox::of(rtcp ? environment_.machine_from_tip(position(), modal.tool_length)
                                             : position());
   return FlowState::found;
 }
@@ -207,7 +224,9 @@ FlowState ProgramFlow::take_step(language::Step step) {
           place(alarm.program, alarm.line) + ":" + std::to_string(alarm.column) + ": " + alarm.text.data();
       for (std::size_t k = alarm.calls; k-- > 0;)
         text += ", called from " + place(alarm.chain[k].program, alarm.chain[k].line);
-      return fail(definition_of(alarm.number), text);
+      fail(definition_of(alarm.number), text);
+      placed_alarm_ = alarm;
+      return FlowState::alarm;
     }
   }
   return FlowState::waiting;
@@ -235,10 +254,10 @@ FlowState ProgramFlow::fill(bool single_block) {
   constexpr int most_commands = 4096;
   const auto last_line = interpreter_.lines() + lines_of_loop;
   for (int i = 0; i < most_commands; ++i) {
-    if (!searching() && !trajectory_->can_accept()) return FlowState::full;
+    if (!searching() && !motion_->can_accept()) return FlowState::full;
     if (!have_command_) {
       if (lines_without_motion() >= most_lines_) {
-        trajectory_->finish();
+        motion_->finish();
         return FlowState::loop;
       }
       if (interpreter_.lines() >= last_line) return FlowState::waiting;
@@ -263,7 +282,7 @@ FlowState ProgramFlow::fill(bool single_block) {
       skips_.resize(skips_read_);
       modals_.clear();
       modals_.add(0, command_.modal);
-      trajectory_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
+      motion_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
     }
     if (command_.modal.frame != frame_) frames_.add(command_.sequence, interpreter_.frame_of(command_));
     frame_ = command_.modal.frame;
@@ -272,13 +291,13 @@ FlowState ProgramFlow::fill(bool single_block) {
         command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
     const bool move = is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke;
     if (single_block && block_line_ != 0 && command_.line != block_line_) {
-      trajectory_->finish();
+      motion_->finish();
       return FlowState::block_end;
     }
     block_line_ = command_.line;
     if (!move || stroke != tapping_) {
       if (command_.kind == CommandKind::skip || stroke) executing_ = command_.modal;
-      trajectory_->finish();
+      motion_->finish();
       return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;
     }
     const auto state = push_move();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Takes commands from the interpreter and gives them to motion; stops where something else has to happen
-// first. The channel and the planner without a cluster both run programs through it, so their motions agree
-// bit for bit.
+// first. The channel, the planner without a cluster and the checks all run programs through it: motions agree
+// bit for bit, and so do alarms.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 #include "channel_setup/channel_setup.hpp"
 #include "language/interpreter.hpp"
 #include "machine/alarm_definition.hpp"
-#include "motion/trajectory.hpp"
+#include "motion/move_taker.hpp"
 #include "program_execution/auxiliary_memory.hpp"
 #include "program_execution/command_trail.hpp"
 #include "program_execution/move_guard.hpp"
@@ -53,9 +53,12 @@ class ProgramFlow {
  public:
   /// `machine` must outlive the flow.
   explicit ProgramFlow(channel_setup::ChannelSetup& machine, language::InterpreterOptions options = {})
-      : machine_(machine), interpreter_(machine, options) {}
+      : environment_(machine), machine_(&machine), interpreter_(machine, options) {}
+  /// Of a machine without travel: no offset may be set.
+  explicit ProgramFlow(language::Environment& environment, language::InterpreterOptions options = {})
+      : environment_(environment), interpreter_(environment, options) {}
 
-  /// Sees every move as motion has got it; may be empty.
+  /// Sees every move as motion has got it, pending() as the program has it; may be empty.
   std::function<void(const language::Command&)> on_move;
 
   /// Looks at every move before motion gets it, and must outlive the flow; null: nobody does.
@@ -69,13 +72,16 @@ class ProgramFlow {
   /// kept. Nothing when there are none.
   void set_offset(const std::optional<AxisValues>& offset) { offset_ = offset; }
 
-  /// `trajectory` takes the moves and must be at rest at `position`, in the frame of `initial`; it and `text`
+  /// Ends a program where `watch` finds that it repeats for ever: Interpreter::watch_loops().
+  void watch_loops(language::EndlessLoop* watch) { interpreter_.watch_loops(watch); }
+
+  /// `motion` takes the moves and must be at rest at `position`, in the frame of `initial`; it and `text`
   /// must outlive the run, which ends with the next start(). A restart needs the variables the program began
   /// with, because it interprets the program again.
-  void start(motion::Trajectory& trajectory, language::TextSource& text, const AxisValues& position,
+  void start(motion::MoveTaker& motion, language::TextSource& text, const AxisValues& position,
              const language::ModalState& initial, const language::VariableStore& variables,
              const Entry& entry = {}, language::Beginning beginning = language::Beginning::program);
-  bool started() const { return trajectory_ != nullptr; }
+  bool started() const { return motion_ != nullptr; }
   /// Only after start(). Reads until one of the states is reached, at most some thousand commands.
   FlowState fill(bool single_block);
   /// The command fill() stopped at, and done with it.
@@ -117,14 +123,15 @@ class ProgramFlow {
   /// The results a program had before this process; after start().
   void set_skips(std::vector<SkipResult> skips) { skips_ = std::move(skips); }
 
+  const language::Interpreter& interpreter() const { return interpreter_; }
   const language::ModalState& modal() const { return interpreter_.modal(); }
   /// Where the blocks read so far end, in the frame of modal().
   const AxisValues& position() const { return interpreter_.position(); }
   /// The variables as the program has left them.
   const language::VariableStore& variables() const { return interpreter_.variables(); }
-  /// The time the program's clock variables show from now on, in cycles of the stream.
+  /// The time the program's clock variables show from now on, in cycles of the machine's stream.
   void set_cycle(std::uint64_t cycle) {
-    const double milliseconds = static_cast<double>(cycle) * machine_.cycle_seconds() * 1000;
+    const double milliseconds = static_cast<double>(cycle) * machine_->cycle_seconds() * 1000;
     interpreter_.set_time({milliseconds, milliseconds / 3.6e6, 0, 0});
   }
   /// The coordinate frames in which the commands since the start were programmed.
@@ -141,6 +148,9 @@ class ProgramFlow {
   const machine::AlarmDefinition& alarm() const { return *alarm_; }
   std::uint32_t alarm_number() const { return alarm_ == nullptr ? 0 : alarm_->number; }
   const std::string& alarm_text() const { return alarm_text_; }
+  /// The alarm with its place, of all kinds; the column is 0 when no text is at fault but what it makes the
+  /// machine do, and then the chain of calls is not known.
+  const language::Alarm& placed_alarm() const { return placed_alarm_; }
   /// Commands up to the restart point, or the line, are being skipped.
   bool searching() const { return search_ != Search::none; }
   /// The last FlowState::waiting was for the text; otherwise fill() has only done enough for one call.
@@ -150,6 +160,8 @@ class ProgramFlow {
   static constexpr std::uint64_t lines_per_read = 8000;
   enum class Search : std::uint8_t { none, restart, line };
   void note_motion();
+  /// Empty, or the line of the axis that the pending move would take out of its travel.
+  std::string travel_error(const AxisValues& from);
   FlowState push_move();
   /// Full: motion may have the pending move. Waiting: the guard has not finished. Else alarm.
   FlowState ask_guard(const AxisValues& from);
@@ -159,10 +171,12 @@ class ProgramFlow {
   FlowState fail(language::AlarmNumber number, std::string_view text);
   FlowState fail(language::AlarmNumber number) { return fail(number, language::alarm_text(number)); }
   FlowState fail_search(const std::string& why);
+  void place_alarm(std::uint32_t program, std::uint32_t line);
   FlowState continue_after_skip();
   FlowState fail_after_cycle();
-  channel_setup::ChannelSetup& machine_;
-  motion::Trajectory* trajectory_ = nullptr;  // of the run
+  language::Environment& environment_;
+  const channel_setup::ChannelSetup* machine_ = nullptr;
+  motion::MoveTaker* motion_ = nullptr;  // of the run
   MoveGuard* guard_ = nullptr;
   language::Interpreter interpreter_;
   language::Command command_;
@@ -186,6 +200,7 @@ class ProgramFlow {
 
   const machine::AlarmDefinition* alarm_ = nullptr;
   std::string alarm_text_;
+  language::Alarm placed_alarm_;
 };
 
 }  // namespace trunnion::program_execution

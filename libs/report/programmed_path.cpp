@@ -1,29 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/programmed_path.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <memory>
 
 #include "channel_setup/channel_setup.hpp"
-#include "language/interpreter.hpp"
 #include "motion/path_segment.hpp"
+#include "program_execution/program_reader.hpp"
 
 namespace trunnion::report {
 namespace {
 
 using language::AxisValues;
+using language::CommandKind;
 
 constexpr double chord_error = 1e-6;  // mm
 constexpr int most_halvings = 16;
 
-// Appends one command as chords.
+// Appends commands as chords.
 class Tracer {
  public:
   Tracer(const channel_setup::ChannelSetup& environment, ProgrammedPath& out)
       : environment_(environment), out_(out) {}
 
+  void begin(const AxisValues& position) {
+    const AxisValues tip = environment_.tip_from_machine(position, 0);
+    out_.path.start({tip[0], tip[1], tip[2]});
+  }
+
+  void take(const AxisValues& from, const language::Command& command) {
+    ++out_.commands;
+    switch (command.kind) {
+      case CommandKind::rapid:
+        trace(from, command);
+        out_.rapid_lines.insert(command.line);
+        break;
+      case CommandKind::line:
+      case CommandKind::skip:
+      case CommandKind::tap:
+      case CommandKind::arc: {
+        trace(from, command);
+        out_.feed_lines.insert(command.line);
+        const auto offset = environment_.work_offset(command.modal.work_offset);
+        out_.zero = {offset[0], offset[1], offset[2]};
+        break;
+      }
+      case CommandKind::transformation:
+        jump(command);
+        break;
+      default:
+        break;
+    }
+  }
+
+ private:
+  // A tool length that becomes active moves the evaluated point, not the machine.
+  void jump(const language::Command& command) {
+    const bool rtcp = command.modal.transformation == language::Transformation::rtcp;
+    const auto tip =
+        rtcp ? command.target : environment_.tip_from_machine(command.target, command.modal.tool_length);
+    if (out_.path.pieces().empty())
+      out_.path.start({tip[0], tip[1], tip[2]});
+    else
+      out_.path.add({{tip[0], tip[1], tip[2]}, command.line, true});
+  }
+
   void trace(const AxisValues& from, const language::Command& command) {
-    const bool arc = command.kind == language::CommandKind::arc;
+    const bool arc = command.kind == CommandKind::arc;
     const auto segment = arc ? motion::PathSegment::arc(from, command.target, command.arc)
                              : motion::PathSegment::line(from, command.target);
     const bool rtcp = command.modal.transformation == language::Transformation::rtcp;
@@ -35,7 +77,7 @@ class Tracer {
     const bool turns =
         from[3] != command.target[3] || from[4] != command.target[4] || from[5] != command.target[5];
     piece_.line = command.line;
-    piece_.rapid = command.kind == language::CommandKind::rapid;
+    piece_.rapid = command.kind == CommandKind::rapid;
     const Vec3 end = tip_at(segment.length());
     if (arc || (!rtcp && turns)) {
       // Start with quarters of a turn: a symmetric curve could coincide with its chord.
@@ -52,7 +94,6 @@ class Tracer {
     }
   }
 
- private:
   template <class TipAt>
   void divide(const TipAt& tip_at, double s0, const Vec3& a, double s1, const Vec3& b, int halvings) {
     const double middle = (s0 + s1) / 2;
@@ -82,72 +123,20 @@ class Tracer {
 ProgrammedPath programmed_path(const std::string& text, const MachineTables& tables,
                                const AxisValues& position) {
   ProgrammedPath result;
-  channel_setup::ChannelSetup environment(tables);
+  channel_setup::ChannelSetup machine(tables);
+  // What the machine made of the moves is in the recording: here it only has axes.
+  language::Environment& environment = machine;
+  const auto reader = std::make_unique<program_execution::ProgramReader>(environment);
+  Tracer tracer(machine, result);
+  tracer.begin(position);
+  reader->on_command = [&](const language::Command& command, const language::Command&) {
+    tracer.take(reader->from(), command);
+  };
   language::StringSource source(text);
-  language::Interpreter interpreter(environment);
-  interpreter.start(source, position, environment.power_on());
-  const AxisValues start = environment.tip_from_machine(position, 0);
-  result.path.start({start[0], start[1], start[2]});
-  Tracer tracer(environment, result);
-  AxisValues at = position;
-  language::Command command;
-  for (bool more = true; more;) {
-    switch (interpreter.next(command)) {
-      case language::Step::command:
-        ++result.commands;
-        switch (command.kind) {
-          case language::CommandKind::rapid:
-          case language::CommandKind::line:
-          case language::CommandKind::skip:
-          case language::CommandKind::tap:
-          case language::CommandKind::arc:
-            tracer.trace(at, command);
-            at = command.target;
-            if (command.kind == language::CommandKind::rapid) {
-              result.rapid_lines.insert(command.line);
-            } else {
-              result.feed_lines.insert(command.line);
-              const auto offset = environment.work_offset(command.modal.work_offset);
-              result.zero = {offset[0], offset[1], offset[2]};
-            }
-            break;
-          case language::CommandKind::transformation: {
-            at = command.target;
-            // A tool length that becomes active moves the evaluated point, not the machine.
-            const bool rtcp = command.modal.transformation == language::Transformation::rtcp;
-            const auto tip = rtcp ? at : environment.tip_from_machine(at, command.modal.tool_length);
-            if (result.path.pieces().empty())
-              result.path.start({tip[0], tip[1], tip[2]});
-            else
-              result.path.add({{tip[0], tip[1], tip[2]}, command.line, true});
-            break;
-          }
-          case language::CommandKind::end:
-            more = false;
-            break;
-          default:
-            break;
-        }
-        break;
-      case language::Step::position:  // no probe: a skip move ends at its end
-        interpreter.set_position(at);
-        break;
-      case language::Step::answer:  // nor another service: its cycle has no parts
-        interpreter.answer(0);
-        break;
-      case language::Step::alarm: {
-        const auto& alarm = interpreter.alarm();
-        result.problem = std::to_string(alarm.line) + ":" + std::to_string(alarm.column) + ": " +
-                         std::string(alarm.text.data());
-        more = false;
-        break;
-      }
-      case language::Step::end:
-        more = false;
-        break;
-      default:
-        break;
-    }
+  if (reader->read(source, position) == program_execution::Ending::alarm) {
+    const auto& alarm = reader->alarm();
+    result.problem = std::to_string(alarm.line) + ":" + std::to_string(alarm.column) + ": " +
+                     std::string(alarm.text.data());
   }
   result.path.build();
   return result;

@@ -24,9 +24,9 @@ struct ProgrammedPath {
   std::string problem;       ///< the interpreter's alarm as line:column: text, else empty
 };
 
-/// Interprets `text` from `position` (machine coordinates, mm and deg). Arcs, and lines whose rotary axes
-/// turn without tool tip control, become chords at most a nanometre off. Throws std::runtime_error when the
-/// parameters make no machine.
+/// Reads `text` from `position` (machine coordinates, mm and deg), once where it repeats. Arcs, and lines
+/// whose rotary axes turn without tool tip control, become chords at most a nanometre off. Throws
+/// std::runtime_error when the parameters make no machine.
 ProgrammedPath programmed_path(const std::string& text, const MachineTables& tables,
                                const language::AxisValues& position);
 

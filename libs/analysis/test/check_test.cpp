@@ -96,12 +96,8 @@ TEST(Summary, ATableThatCountsModulo360GoesOnOverTheFullTurn) {
   const auto c_of = [&](const std::string& program) {
     language::StringSource source(program);
     std::ostringstream out;
-    CheckOptions options;
-    options.travel_error = [&](const auto& from, const auto& motion) {
-      return machine.travel_error(from, motion);
-    };
     EXPECT_TRUE(check_program(
-        source, machine, machine.reference_position(), options, [](std::uint32_t) { return "part.nc"; }, out))
+        source, machine, machine.reference_position(), {}, [](std::uint32_t) { return "part.nc"; }, out))
         << out.str();
     const auto text = out.str();
     return text.substr(text.find("C  "));
@@ -118,13 +114,14 @@ TEST(Summary, AlarmNamesFileLineColumnAndNumber) {
 }
 
 TEST(Summary, AMotionBeyondTheTravelEndsTheCheckWithItsLineAndAxis) {
-  CheckOptions options;
-  options.travel_error = [](const language::AxisValues&, const language::Command& motion) {
-    return motion.target[0] > 50 ? std::to_string(motion.line) + ": X would go to 60.0000" : std::string();
-  };
-  const auto summary = summary_of("G0 X3\nX60\nX70\nM30\n", options);
-  EXPECT_THAT(summary, HasSubstr("part.nc:2: 140: X would go to 60.0000\n"));
-  EXPECT_THAT(summary, HasSubstr("1 rapid"));
+  channel_setup::ChannelSetup machine(
+      tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table"));
+  language::StringSource source("G54 G0 X3\nX9000\nX70\nM30\n");
+  std::ostringstream out;
+  EXPECT_FALSE(check_program(
+      source, machine, machine.reference_position(), {}, [](std::uint32_t) { return "part.nc"; }, out));
+  EXPECT_THAT(out.str(), HasSubstr("part.nc:2: 140: X would go to 9000.0000, its travel is "));
+  EXPECT_THAT(out.str(), HasSubstr("1 rapid"));
 }
 
 TEST(Summary, SkippedBlocks) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "machine/alarm_constants.hpp"
+#include "motion/trajectory.hpp"
 
 namespace trunnion::program_execution {
 namespace {
@@ -251,6 +252,21 @@ TEST_F(Flow, AMoveOutOfTravelIsNotGivenToMotion) {
   EXPECT_EQ(&flow.alarm(), &alarm::travel_limit);
   EXPECT_EQ(flow.alarm_text(), "3: X would go to 401.0000, its travel is -400.0000 .. 400.0000");
   EXPECT_EQ(moves.size(), 1u);
+}
+
+TEST_F(Flow, AnAlarmHasItsPlaceWhateverRaisesIt) {
+  start("G90 F6000\nM98 P7\nM30\nO7\nG1 X401\nM99\n");
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(static_cast<std::uint32_t>(flow.placed_alarm().number), alarm::travel_limit.number);
+  EXPECT_EQ(flow.placed_alarm().line, 5u);
+  EXPECT_EQ(flow.placed_alarm().column, 0u);
+  EXPECT_STREQ(flow.placed_alarm().text.data(),
+               "X would go to 401.0000, its travel is -400.0000 .. 400.0000");
+  start("G90 F6000\nG1 X10\n G77\n");
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(flow.placed_alarm().number, AlarmNumber::unknown_g);
+  EXPECT_EQ(flow.placed_alarm().line, 3u);
+  EXPECT_EQ(flow.placed_alarm().column, 2u);
 }
 
 TEST_F(Flow, AFeedPerRevolutionNeedsATurningSpindle) {

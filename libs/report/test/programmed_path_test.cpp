@@ -52,6 +52,15 @@ TEST(ProgrammedPath, ASkipMoveEndsAtItsEndAndTheProgramGoesOn) {
   EXPECT_NEAR(p.feed_length, 30, 1e-9);
 }
 
+TEST(ProgrammedPath, OfAProgramThatRepeatsEndsAtItsReturn) {
+  const auto once = programmed_path("G54 G90\nG1 X10 F1000\nX0\nM99\n", test::ac_table(), {});
+  EXPECT_EQ(once.problem, "");
+  EXPECT_NEAR(once.feed_length, 20, 1e-9);
+  const auto endless = programmed_path("G54 G90\nN1 G1 X10 F1000\nX0\nGOTO 1\n", test::ac_table(), {});
+  EXPECT_EQ(endless.problem, "");
+  EXPECT_EQ(endless.feed_lines, (std::set<std::uint32_t>{2, 3}));
+}
+
 TEST(ProgrammedPath, AnAlarmIsNamedWithItsPlace) {
   const auto p = programmed_path("G54 G90\nG1 X10 M13\nM30\n", test::ac_table(), {});
   EXPECT_EQ(p.problem.substr(0, 2), "2:") << p.problem;
