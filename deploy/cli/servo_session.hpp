@@ -9,6 +9,7 @@
 
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/machine_session.hpp"
 #include "machine/parameters.hpp"
 #include "servo_analysis/axis_tuning.hpp"
 #include "session_cluster.hpp"
@@ -72,7 +73,6 @@ class ServoSession {
 
  private:
   void take_axes();
-  idl::channel::ChannelState state();
   void start_program(const std::string& program);
   void await_end(SessionResult* result);
   void begin_test(const idl::servo::TestRequest& request);
@@ -83,16 +83,14 @@ class ServoSession {
 
   std::optional<SessionCluster> cluster_;
   std::unique_ptr<cluster::Client> client_;
+  std::optional<cluster::MachineSession> channel_;
   std::unique_ptr<bus::Writer<idl::servo::TestRequest>> requests_;
   std::unique_ptr<bus::Reader<idl::servo::TestSamples>> samples_;
   std::unique_ptr<bus::Reader<idl::service::Alarm>> alarms_;
-  std::string program_;  // the text that is selected
-  std::uint16_t channel_;
   std::uint64_t client_id_, number_ = 0, expected_ = 0;
   idl::servo::TestRequest request_;
   double renewed_ = 0;
-  bool testing_ = false, moving_ = false, uploaded_ = false;
-  idl::channel::ChannelState before_;
+  bool testing_ = false;
   machine::Parameters parameters_;
   std::vector<SessionAxis> axes_;
 };
