@@ -16,8 +16,6 @@ namespace trunnion::cli {
 namespace {
 
 using canonical::axis_letters;
-// mm or deg: commanded motions that are shorter have no direction.
-constexpr double least_motion = 1e-7;
 
 }  // namespace
 
@@ -89,24 +87,6 @@ ChannelMotion motion_of_recording(const std::string& file, std::uint16_t channel
     ++motion.count;
   }
   return motion;
-}
-
-std::vector<truth::Vec3> true_tips(const ChannelMotion& motion, const truth::PoseReport& report) {
-  truth::MachinePose pose;
-  pose.tool_length = report.tool_length;
-  pose.temperatures = report.temperatures;
-  std::vector<truth::Vec3> tips;
-  tips.reserve(motion.count);
-  for (std::size_t i = 0; i < motion.count; ++i) {
-    for (std::size_t axis = 0; axis < truth::axis_count; ++axis) {
-      pose.positions[axis] = motion.load(axis, i);
-      if (i == 0) continue;
-      const double moved = motion.commanded(axis, i) - motion.commanded(axis, i - 1);
-      if (std::abs(moved) > least_motion) pose.approach[axis] = moved > 0 ? 1 : -1;
-    }
-    tips.push_back(report.geometry().pose(pose).tip);
-  }
-  return tips;
 }
 
 }  // namespace trunnion::cli

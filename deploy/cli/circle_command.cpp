@@ -12,8 +12,10 @@
 #include "circular_tests/turns.hpp"
 #include "figures.hpp"
 #include "geometry/angle.hpp"
+#include "identification/true_tips.hpp"
 #include "machine/kinematics.hpp"
 #include "storage/file.hpp"
+#include "true_machine.hpp"
 #include "truth/measurement.hpp"
 #include "truth_picture.hpp"
 
@@ -138,7 +140,7 @@ std::vector<PlanePoint> true_points(const ChannelMotion& motion, const CirclePla
   const auto ball = as_axes(machine.report->geometry().pose(middle).tip);
   std::vector<PlanePoint> points;
   points.reserve(motion.count);
-  for (const auto& tip : true_tips(motion, *machine.report)) {
+  for (const auto& tip : identification::true_tips(motion, *machine.report)) {
     const auto at = as_axes(tip);
     points.push_back(
         {at.first - ball.first + circle.centre.first, at.second - ball.second + circle.centre.second});
