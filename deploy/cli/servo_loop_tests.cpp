@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "machine/parameter_constants.hpp"
+#include "servo_analysis/loop_figures.hpp"
 #include "servo_pictures.hpp"
 #include "servo_test_parts.hpp"
 
@@ -23,16 +24,7 @@ TestReport test_current(ServoSession& session, const TestOptions& o) {
   const auto result = session.run(q, "");
   if (result.traces.empty()) throw std::runtime_error("the drive gave no samples");
   const auto& t = result.traces[0];
-  // In the period of a step the other loops do nothing yet: the torque changes by a share of the step, which
-  // is the period over the time constant.
-  double both = 0, square = 0;
-  for (std::size_t i = 1; i < t.size(); ++i) {
-    const double step = t.excitation[i] - t.excitation[i - 1];
-    both += step * (t.torque[i] - t.torque[i - 1]);
-    square += step * step;
-  }
-  if (!(both > 0)) throw std::runtime_error("the torque does not follow its setpoint");
-  const double time = t.interval / (both / square);
+  const double time = servo_analysis::current_time_constant(t);
   TestReport r;
   r.test = "current";
   r.figures = {{"time constant", time * 1e3, "ms", {}, {}}, {"bandwidth", 1 / time, "1/s", {}, {}}};
@@ -102,11 +94,11 @@ TestReport test_friction(ServoSession& session, const TestOptions& o) {
   const auto f = servo_analysis::identify_friction(points);
   TestReport r;
   r.test = "friction";
-  const std::string share = "of the rated torque", per = share + " per " + length_unit(a) + "/s";
+  const std::string share = "of the rated torque", per = share + " per " + a.length_unit() + "/s";
   const double rated = 1.5 * a.acceleration;
   r.figures = {{"Coulomb friction", f.coulomb, share, {}, {}},
                {"breakaway friction", f.breakaway, share, {}, {}},
-               {"Stribeck speed", f.stribeck_speed, length_unit(a) + "/s", {}, {}},
+               {"Stribeck speed", f.stribeck_speed, a.length_unit() + "/s", {}, {}},
                {"viscous friction", f.viscous, per, {}, {}},
                {"weight", f.gravity, share, {}, {}},
                {"inertia over the nominal one", inertia * rated, "", {}, {}},
@@ -117,7 +109,8 @@ TestReport test_friction(ServoSession& session, const TestOptions& o) {
     measured.points.push_back({p.speed, p.torque});
     r.details["points"].push_back({p.speed, p.torque});
   }
-  r.picture = curves_picture(picture_title(session, a, "friction"), length_unit(a) + "/s", share, {measured});
+  r.picture =
+      curves_picture(picture_title(session, a, "friction"), a.length_unit() + "/s", share, {measured});
   return r;
 }
 
@@ -134,19 +127,9 @@ TestReport test_encoders(ServoSession& session, const TestOptions& o) {
   if (result.traces.empty() || result.traces[0].size() < 2)
     throw std::runtime_error("the drive gave no samples of the motion");
   const auto& t = result.traces[0];
-  // The far half of the way there: backlash and friction are behind it.
-  const auto phases = servo_analysis::constant_phases(t, 0.2);
-  if (phases.empty()) throw std::runtime_error("the motion had no constant speed");
-  const auto end = phases.front().end, half = (phases.front().begin + end) / 2;
-  double motor_mean = 0, load_mean = 0, both = 0, square = 0;
-  for (std::size_t i = half; i < end; ++i) motor_mean += t.motor[i], load_mean += t.load[i];
-  motor_mean /= static_cast<double>(end - half), load_mean /= static_cast<double>(end - half);
-  for (std::size_t i = half; i < end; ++i) {
-    both += (t.motor[i] - motor_mean) * (t.load[i] - load_mean);
-    square += std::pow(t.motor[i] - motor_mean, 2);
-  }
-  const double ratio = square > 0 ? both / square : 0;
-  const double motor = std::copysign(travel, t.motor[end - 1] - t.motor[half]), load = ratio * motor;
+  const auto compared = servo_analysis::compare_encoders(t);
+  const double ratio = compared.ratio;
+  const double motor = compared.motor_sense * travel, load = ratio * motor;
   const double motor_pulses = p.get(parameter::motor_encoder_pulses, a.number) / travel;
   const double load_pulses = p.get(parameter::load_encoder_pulses, a.number);
   TestReport r;
@@ -184,7 +167,7 @@ TestReport test_encoders(ServoSession& session, const TestOptions& o) {
                         " = 1 (STB14) may close the loop over the load encoder");
   }
   r.picture =
-      curves_picture(picture_title(session, a, "encoders"), "s", length_unit(a),
+      curves_picture(picture_title(session, a, "encoders"), "s", a.length_unit(),
                      {over_time("motor", t.motor, t.interval, 1), over_time("load", t.load, t.interval, 1)});
   return r;
 }

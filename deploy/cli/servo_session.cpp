@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <thread>
 
-#include "figures.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
 
@@ -35,14 +34,6 @@ void append(AxisTrace& t, const double* v) {
 }
 
 }  // namespace
-
-double SessionAxis::into_travel(double distance) const {
-  distance = std::abs(distance);
-  if (high - place >= distance && high - place >= place - low) return distance;
-  if (place - low >= distance) return -distance;
-  throw std::runtime_error(text("axis %c at %.3f %s cannot move by %.3f: its travel is %.3f .. %.3f", letter,
-                                place, turns ? "deg" : "mm", distance, low, high));
-}
 
 ServoSession::ServoSession(const std::string& machine, std::optional<std::uint32_t> domain,
                            std::uint16_t channel)
@@ -76,7 +67,7 @@ ServoSession::~ServoSession() {
 void ServoSession::take_axes() {
   const auto& state = channel_->before();
   for (std::size_t i = 0; i < state.axes.size(); ++i) {
-    SessionAxis a;
+    TestedAxis a;
     a.letter = state.letters[i];
     a.number = state.axes[i];
     a.turns = parameters_.integer(parameter::axis_type, a.number) != machine::axis_type_linear;
@@ -90,7 +81,7 @@ void ServoSession::take_axes() {
   }
 }
 
-const SessionAxis& ServoSession::axis(const std::string& letter) const {
+const TestedAxis& ServoSession::axis(const std::string& letter) const {
   std::string known;
   for (const auto& a : axes_) {
     if (letter.size() == 1 && a.letter == letter[0]) return a;
@@ -244,28 +235,6 @@ void ServoSession::write(const std::vector<servo_analysis::ServoSettings::Value>
   request.who = who;
   client_->parameter(std::move(request));
   client_->channel(channel_->number(), CommandKind::RESET);
-}
-
-std::string to_and_fro_program(const SessionAxis& axis, double distance, double feed, int strokes) {
-  // Incremental: an axis that counts modulo 360 would go to an angle by the shorter way.
-  std::string program = "G91\n";
-  for (int i = 0; i < strokes + strokes % 2; ++i)
-    program += text("G1 %c%.6f F%.3f\n", axis.letter, i % 2 == 0 ? distance : -distance, feed);
-  return program + "G90\nM30\n";
-}
-
-std::string circle_program(const SessionAxis& first, const SessionAxis& second, double radius, double feed) {
-  const double to_centre = first.into_travel(2 * radius) / 2;
-  if (second.place - radius < second.low || second.place + radius > second.high)
-    throw std::runtime_error(text("axis %c at %.3f mm has no space for a circle of radius %.3f mm",
-                                  second.letter, second.place, radius));
-  const auto centre_word = [](char letter) { return static_cast<char>('I' + (letter - 'X')); };
-  const std::string both{std::min(first.letter, second.letter), std::max(first.letter, second.letter)};
-  const char* plane = both == "XY" ? "G17" : both == "XZ" ? "G18" : both == "YZ" ? "G19" : nullptr;
-  if (plane == nullptr) throw std::runtime_error("a circle needs two of the axes X, Y, Z");
-  const auto turn =
-      text("G3 %c%.6f %c0 F%.3f\n", centre_word(first.letter), to_centre, centre_word(second.letter), feed);
-  return std::string(plane) + "\n" + turn + turn + "G17\nM30\n";
 }
 
 servo_analysis::MotionResult SessionAxisUnderTest::move(const servo_analysis::ServoSettings& trial,

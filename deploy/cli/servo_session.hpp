@@ -12,22 +12,12 @@
 #include "cluster/machine_session.hpp"
 #include "machine/parameters.hpp"
 #include "servo_analysis/axis_tuning.hpp"
+#include "servo_analysis/test_programs.hpp"
 #include "session_cluster.hpp"
 
 namespace trunnion::cli {
 
-struct SessionAxis {
-  char letter = 0;
-  std::uint16_t number = 0;  ///< logical
-  bool turns = false;
-  double place = 0;          ///< machine coordinate at the start, mm or deg
-  double low = 0, high = 0;  ///< travel
-  double highest_feed = 0;   ///< mm/min or deg/min
-  double acceleration = 0;   ///< mm/s2 or deg/s2
-  /// `distance` signed: towards the farther end of the travel. Throws std::runtime_error when there is not
-  /// enough.
-  double into_travel(double distance) const;
-};
+using servo_analysis::TestedAxis;
 
 /// The computer did not take the drive's samples in time; the motion has ended.
 struct SamplesLost : std::runtime_error {
@@ -54,8 +44,8 @@ class ServoSession {
   ServoSession& operator=(const ServoSession&) = delete;
 
   /// Throws std::runtime_error when the channel has no such axis.
-  const SessionAxis& axis(const std::string& letter) const;
-  const std::vector<SessionAxis>& axes() const { return axes_; }
+  const TestedAxis& axis(const std::string& letter) const;
+  const std::vector<TestedAxis>& axes() const { return axes_; }
   const machine::Parameters& parameters() const { return parameters_; }
   const std::string& machine() const { return cluster_->running().machine; }
   const std::string& machine_directory() const { return cluster_->running().machine_directory; }
@@ -92,14 +82,14 @@ class ServoSession {
   double renewed_ = 0;
   bool testing_ = false;
   machine::Parameters parameters_;
-  std::vector<SessionAxis> axes_;
+  std::vector<TestedAxis> axes_;
 };
 
 /// One axis of a session, for figures and tuning.
 class SessionAxisUnderTest : public servo_analysis::AxisUnderTest {
  public:
   /// `partner`: for circles; null: none.
-  SessionAxisUnderTest(ServoSession& session, const SessionAxis& axis, const SessionAxis* partner)
+  SessionAxisUnderTest(ServoSession& session, const TestedAxis& axis, const TestedAxis* partner)
       : session_(session), axis_(axis), partner_(partner) {}
   servo_analysis::MotionResult move(const servo_analysis::ServoSettings& trial,
                                     const servo_analysis::ServoSettings& fallback, double vibration_limit,
@@ -107,13 +97,8 @@ class SessionAxisUnderTest : public servo_analysis::AxisUnderTest {
 
  private:
   ServoSession& session_;
-  const SessionAxis& axis_;
-  const SessionAxis* partner_;
+  const TestedAxis& axis_;
+  const TestedAxis* partner_;
 };
-
-/// Blocks of a circle of both axes from the place of the first one, which reverses there: two turns.
-std::string circle_program(const SessionAxis& first, const SessionAxis& second, double radius, double feed);
-/// `strokes` strokes to and fro from the place of the axis.
-std::string to_and_fro_program(const SessionAxis& axis, double distance, double feed, int strokes);
 
 }  // namespace trunnion::cli

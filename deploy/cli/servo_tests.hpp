@@ -54,10 +54,4 @@ TestReport test_friction(ServoSession& session, const TestOptions& options);
 /// 10a932.
 TestReport test_encoders(ServoSession& session, const TestOptions& options);
 
-/// What a tuning needs to know of an axis. `amplitude` mm or deg.
-servo_analysis::TuningTask tuning_task(const ServoSession& session, const SessionAxis& axis,
-                                       const SessionAxis* partner, double amplitude);
-/// Another linear axis for circles with `axis`; null when there is none.
-const SessionAxis* partner_of(const ServoSession& session, const SessionAxis& axis);
-
 }  // namespace trunnion::cli
