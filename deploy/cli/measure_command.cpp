@@ -55,7 +55,7 @@ int ballbar(const MeasureOptions& o, bool json) {
   path.second = o.plane[1] == 'Y' ? 1 : 2;
   if (o.points > 0) path.points = o.points;
   const auto m = truth::measure_ballbar(*machine.report, path, instrument(machine, "ballbar"));
-  const auto r = circle_report(o.plane, path.radius, m.ccw, m.cw);
+  const auto r = circular_tests::circle_report(o.plane, path.radius, m.ccw, m.cw);
   write_plot(o.plot, ballbar_picture(m, machine.name + ", plane " + o.plane), json);
   if (json) {
     auto out = report_json(r);
