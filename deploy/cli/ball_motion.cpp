@@ -9,23 +9,16 @@
 #include "figures.hpp"
 #include "identification/true_tips.hpp"
 #include "machine/kinematics.hpp"
-#include "metrology/axis_of_rotation.hpp"
 
 namespace trunnion::cli {
 namespace {
 
 using canonical::axis_letters;
 constexpr std::uint16_t turn_decimation = 4, stop_decimation = 40;  // 2 kHz, 200 Hz
-constexpr double positioning_feed = 3000;                           // mm/min or deg/min
 constexpr double share_of_travel = 0.9;
 
 geometry::Chain chain_of(const ServoSession& session, std::uint16_t channel) {
   return machine::make_chain(session.parameters(), channel);
-}
-
-Vec3 perpendicular(const Vec3& axis) {
-  const Vec3 x = Vec3::UnitX() - axis * axis.x();
-  return x.norm() > 0.5 ? Vec3(x.normalized()) : Vec3((Vec3::UnitY() - axis * axis.y()).normalized());
 }
 
 }  // namespace
@@ -41,7 +34,7 @@ BallTest::BallTest(ServoSession& session, const BallOptions& options)
     throw std::runtime_error("--axis " + options_.axis + ": no rotary axis of the transformation");
   for (const auto& a : session_.axes())
     if (const auto index = axis_letters.find(a.letter); index > 2 && index < axis_letters.size())
-      held_[index - 3] = a.place;
+      set_.held[index - 3] = a.place;
   for (const auto& word : options_.hold) {
     const auto index = word.empty() ? std::string_view::npos : axis_letters.find(word[0]);
     std::size_t used = 0;
@@ -53,7 +46,7 @@ BallTest::BallTest(ServoSession& session, const BallOptions& options)
     if (index == std::string_view::npos || index < 3 || !set_.model.turns(index - 3) || index == set_.axis ||
         used + 1 != word.size())
       throw std::runtime_error("--hold " + word + ": expected another rotary axis and its angle, as A-30");
-    held_[index - 3] = value;
+    set_.held[index - 3] = value;
   }
   set_.tool_length = session_.tool_length(options_.tool);
   const double low = axis.low, high = axis.high;
@@ -73,60 +66,21 @@ BallTest::BallTest(ServoSession& session, const BallOptions& options)
   sensor_.emplace(options_.source == "true" ? instrument(machine_, "rtest") : truth::InstrumentTruth{});
 }
 
-geometry::Angles BallTest::angles_at(double angle) const {
-  auto angles = held_;
-  angles[set_.axis - 3] = angle;
-  return angles;
-}
-
-Vec3 BallTest::place_at(double angle) const {
-  return set_.model.machine_from_tip(set_.ball, angles_at(angle), set_.tool_length);
-}
-
-// A table's axis carries the ball about it: the ball is at the radius asked for. A head turns about its own
-// axis, and its length is the radius.
 void BallTest::find_circle() {
-  const auto circle = [&] {
-    std::vector<metrology::TurnedCentre> places;
-    const double range = std::min(std::abs(set_.sweep), 300.0);
-    for (int k = 0; k < 7; ++k) places.push_back({start_ + range * k / 6, place_at(start_ + range * k / 6)});
-    const auto fit = metrology::fit_axis(places);
-    if (const auto* error = std::get_if<metrology::AxisError>(&fit))
-      throw std::runtime_error("--axis " + options_.axis +
-                               ": the ball has no circle about the axis: " + metrology::to_string(*error));
-    const auto& found = std::get<metrology::AxisFit>(fit);
-    set_.direction = found.direction, set_.centre = found.centre, set_.radius = found.radius;
-  };
-  const auto& design = machine_.outline.design;
-  Vec3 point = Vec3::Zero();
-  std::optional<Vec3> direction;
-  // The points of the axes of a table, from the workpiece outwards: v2, v2 + v1, v2 + v1 + v0.
-  for (const auto* table : {&design.table_2, &design.table_1, &design.table_0}) {
-    if (!*table || direction) continue;
-    point += (*table)->offset + (*table)->correction;
-    if ((*table)->angle == set_.axis - 3) direction = (*table)->direction.normalized();
-  }
-  if (!options_.ball.empty()) {
-    set_.ball = coordinates("--ball", options_.ball);
-  } else if (direction) {
-    // Beside an axis along the tool, above an axis across it.
-    const Vec3 tool = set_.model.tool_direction(), across = tool - *direction * direction->dot(tool);
-    set_.ball = across.norm() > 0.5
-                    ? Vec3(point + across.normalized() * options_.radius)
-                    : Vec3(point + perpendicular(*direction) * options_.radius + tool * options_.height);
-  } else {
-    Vec3 here = Vec3::Zero();
-    for (const auto& a : session_.axes())
-      if (a.letter >= 'X' && a.letter <= 'Z') here[a.letter - 'X'] = a.place;
-    set_.ball = set_.model.tip_from_machine(here, angles_at(start_), set_.tool_length);
-  }
-  circle();
+  identification::WantedBall wanted{std::nullopt, options_.radius, options_.height};
+  if (!options_.ball.empty()) wanted.place = coordinates("--ball", options_.ball);
+  Vec3 here = Vec3::Zero();
+  for (const auto& a : session_.axes())
+    if (a.letter >= 'X' && a.letter <= 'Z') here[a.letter - 'X'] = a.place;
+  if (const auto error = identification::place_ball(set_, wanted, start_, here))
+    throw std::runtime_error("--axis " + options_.axis +
+                             ": the ball has no circle about the axis: " + metrology::to_string(*error));
 }
 
 void BallTest::check_travel(double start) const {
   for (int k = 0; k <= 72; ++k) {
     const double angle = start + set_.sweep * k / 72;
-    const Vec3 place = place_at(angle);
+    const Vec3 place = identification::place_at(set_, angle);
     for (int i = 0; i < 3; ++i) {
       const auto& a = session_.axis(std::string(1, static_cast<char>('X' + i)));
       if (place[i] >= a.low && place[i] <= a.high) continue;
@@ -138,33 +92,9 @@ void BallTest::check_travel(double start) const {
   }
 }
 
-// To the ball with the axes as they stand then, tool tip control on.
-std::string BallTest::opening(double start) const {
-  const auto angles = angles_at(start);
-  const Vec3 place = place_at(start);
-  std::string program = "G17 G90 G94\nG53 G1";
-  for (const auto& a : session_.axes())
-    if (const auto index = axis_letters.find(a.letter); index > 2 && index < axis_letters.size())
-      program += text(" %c%.6f", a.letter, angles[index - 3]);
-  program += text(" F%g\nG53 G1 X%.6f Y%.6f Z%.6f F%g\nG43.4 H%u\nG4 P500\n", positioning_feed, place[0],
-                  place[1], place[2], positioning_feed, options_.tool);
-  return program;
-}
-
-std::string BallTest::closing() const {
-  std::string program = text("G4 P500\nG49\nG53 G1");
-  for (const auto& a : session_.axes())
-    if (a.letter >= 'X' && a.letter <= 'Z') program += text(" %c%.6f", a.letter, a.place);
-  program += text(" F%g\nG53 G1", positioning_feed);
-  for (const auto& a : session_.axes())
-    if (const auto index = axis_letters.find(a.letter); index > 2 && index < axis_letters.size())
-      program += text(" %c%.6f", a.letter, a.place);
-  return program + text(" F%g\nM30\n", positioning_feed);
-}
-
 ChannelMotion BallTest::sampled(const std::string& program, std::uint16_t decimation) {
   auto motion = run_sampled(session_, program, "XYZ" + options_.axis, decimation);
-  std::copy(held_.begin(), held_.end(), motion.resting.begin() + 3);
+  std::copy(set_.held.begin(), set_.held.end(), motion.resting.begin() + 3);
   return motion;
 }
 
@@ -175,12 +105,8 @@ BallMotion BallTest::run(double feed, double start) {
   if (turning > axis.highest_feed)
     throw std::runtime_error(text("--feed %g: axis %c would turn with %.0f deg/min, its limit is %.0f", feed,
                                   axis.letter, turning, axis.highest_feed));
-  const char letter = axis.letter;
-  auto program = opening(start);
-  // Incremental: a table that counts modulo 360 would not turn for its own angle.
-  program += text("G91 G1 %c%.6f F%.6f\nG4 P500\nG1 %c%.6f\nG90\n", letter, set_.sweep, turning, letter,
-                  -set_.sweep);
-  const auto motion = sampled(program + closing(), turn_decimation);
+  const auto motion =
+      sampled(identification::ball_turn_program(set_, program(), start, turning), turn_decimation);
   auto predicted = identification::predict_servos(motion, set_.radius);
   const auto samples = read(motion, &predicted);
   const double way = set_.sweep > 0 ? std::abs(set_.sweep) : -std::abs(set_.sweep);
@@ -209,13 +135,8 @@ identification::BallTurn BallTest::turned_by(double way, const std::vector<BallS
 
 std::vector<BallSample> BallTest::stop(std::size_t stops, double start) {
   check_travel(start);
-  const char letter = options_.axis[0];
-  auto program = opening(start);
-  program += "G91\n";
-  for (std::size_t k = 0; k < stops; ++k)
-    program += text("G1 %c%.6f F%g\nG4 P400\n", letter,
-                    k == 0 ? 0.0 : set_.sweep / static_cast<double>(stops), positioning_feed);
-  const auto motion = sampled(program + "G90\n" + closing(), stop_decimation);
+  const auto motion =
+      sampled(identification::ball_stops_program(set_, program(), start, stops), stop_decimation);
   const auto samples = read(motion, nullptr);
   auto means = identification::means_at_stops(set_, samples, motion.interval, start, stops);
   if (means.size() != stops) throw std::runtime_error("the axis did not come to rest at every stop");

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "channel_motion.hpp"
-#include "identification/turned_ball.hpp"
+#include "identification/ball_setting.hpp"
 #include "true_machine.hpp"
 
 namespace trunnion::cli {
@@ -46,12 +46,9 @@ class BallTest {
   double start() const { return start_; }
 
  private:
-  geometry::Angles angles_at(double angle) const;
-  Vec3 place_at(double angle) const;
   void find_circle();
   void check_travel(double start) const;
-  std::string opening(double start) const;
-  std::string closing() const;
+  identification::BallProgram program() const { return {session_.axes(), options_.tool}; }
   ChannelMotion sampled(const std::string& program, std::uint16_t decimation);
   std::vector<BallSample> read(const ChannelMotion& motion, const identification::PredictedMotion* predicted);
   identification::BallTurn turned_by(double way, const std::vector<BallSample>& samples,
@@ -61,7 +58,6 @@ class BallTest {
   BallOptions options_;
   TrueMachine machine_;
   identification::TurnedBall set_;
-  geometry::Angles held_{};
   double start_ = 0;
   std::optional<truth::Instrument> sensor_;
 };

@@ -19,6 +19,7 @@ struct TurnedBall {
   truth::MachineOutline machine;
   geometry::Chain model;
   std::size_t axis = 5;                    ///< that turns, 3 .. 8: A .. W
+  geometry::Angles held{};                 ///< deg: of the other rotary axes
   truth::Vec3 ball = truth::Vec3::Zero();  ///< mm, workpiece frame
   double tool_length = 0;                  ///< mm
   double sweep = 360;                      ///< deg, signed
