@@ -95,9 +95,9 @@ void say_tuned(const TestedAxis& axis, const servo_analysis::TuningResult& resul
   print("%c  %s; largest vibration %.2f um of %g um", axis.letter,
         result.reached() ? "every limit is reached" : "NOT every limit is reached",
         result.largest_vibration * 1e3, amplitude_um);
-  if (result.settings.position_gain < least_position_gain)
+  if (result.settings.position_gain < servo_analysis::least_position_gain)
     print("%c  position gain %.4g 1/s, the limit of servo test position is %.1f 1/s: stiffen the axis",
-          axis.letter, result.settings.position_gain, least_position_gain);
+          axis.letter, result.settings.position_gain, servo_analysis::least_position_gain);
 }
 
 int tune(const ServoOptions& o, const Common& common) {

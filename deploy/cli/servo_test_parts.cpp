@@ -19,6 +19,13 @@ const TestedAxis& only_axis(const ServoSession& session, const TestOptions& o) {
   return session.axis(o.axes.front());
 }
 
+TestReport report_of(const char* test, servo_analysis::TestFindings findings) {
+  TestReport report;
+  static_cast<servo_analysis::TestFindings&>(report) = std::move(findings);
+  report.test = test;
+  return report;
+}
+
 TestRequest samples_of(const std::vector<std::uint16_t>& axes, std::uint16_t decimation) {
   TestRequest r;
   r.axes = axes;

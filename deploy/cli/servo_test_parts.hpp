@@ -10,6 +10,7 @@ inline constexpr double longest_test = 600;  // s
 
 /// Throws std::runtime_error when another number of axes than one is given.
 const TestedAxis& only_axis(const ServoSession& session, const TestOptions& options);
+TestReport report_of(const char* test, servo_analysis::TestFindings findings);
 /// Samples in motion alone.
 idl::servo::TestRequest samples_of(const std::vector<std::uint16_t>& axes, std::uint16_t decimation);
 /// To and fro with 0.5 s at constant speed where the travel permits.
