@@ -15,6 +15,7 @@
 
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/machine_session.hpp"
 #include "http_client/client.hpp"
 
 namespace trunnion::integration {
@@ -160,15 +161,7 @@ class Cluster {
     start(name, channel);
   }
   void start(const std::string& name, std::uint16_t channel = 0) {
-    client_->set_mode(channel, Mode::AUTO);
-    // The list with a new program may reach the channel after the store's answer.
-    for (int i = 0;; ++i) try {
-        client_->select_program(channel, name);
-        break;
-      } catch (const std::exception&) {
-        if (i == 50) throw;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      }
+    cluster::MachineSession(*client_, channel).select(name);
     cycle_start(channel);
   }
   /// Returns when the state is one that was published after the start.

@@ -10,13 +10,17 @@
 #include "ball_motion.hpp"
 #include "circle_report.hpp"
 #include "figures.hpp"
+#include "identification/r_test.hpp"
 #include "machine/kinematics.hpp"
-#include "r_test.hpp"
 #include "servo_pictures.hpp"
 #include "storage/file.hpp"
 
 namespace trunnion::cli {
 namespace {
+
+using identification::BallTurn;
+using identification::dynamic_less_static;
+using identification::span_of;
 
 constexpr const char* directions[] = {"X", "Y", "Z"};
 
@@ -70,9 +74,10 @@ char annex_of(const truth::MachineOutline& machine) {
 void print_common(const BallTest& test, const CommandOptions& o, const BallTurn& turn) {
   std::cout << "axis " << o.axis
             << text(" from %.3f to %.3f deg, ball at X%.3f Y%.3f Z%.3f of the workpiece, ", test.start(),
-                    test.start() + test.sweep(), test.ball()[0], test.ball()[1], test.ball()[2])
-            << text("tool %.3f mm\n", test.tool_length());
-  print_figure("radius of the ball's circle", test.radius(), "mm");
+                    test.start() + test.set().sweep, test.set().ball[0], test.set().ball[1],
+                    test.set().ball[2])
+            << text("tool %.3f mm\n", test.set().tool_length);
+  print_figure("radius of the ball's circle", test.set().radius, "mm");
   print_figure("speed of the axis", std::abs(turn.speed), "rad/s");
   print_figure("readings in a second", 1 / turn.interval, "");
 }
@@ -82,13 +87,13 @@ int k_test(CommandOptions o, const Common& common) {
   o.axis = axis_of_test(session, o);
   BallTest test(session, o);
   const auto motion = test.run(o.feed, test.start());
-  const auto name = std::string(1, annex_of(test.machine().outline)) + o.test;
+  const auto name = std::string(1, annex_of(test.set().machine)) + o.test;
   bus::Json out = {{"machine", session.machine()},
                    {"test", name},
                    {"axis", o.axis},
                    {"feed_mm_per_min", o.feed},
-                   {"radius_mm", test.radius()},
-                   {"ball_mm", vector_json(test.ball(), 1)},
+                   {"radius_mm", test.set().radius},
+                   {"ball_mm", vector_json(test.set().ball, 1)},
                    {"source", o.source}};
   if (!common.json) {
     std::cout << name << ", ";
@@ -104,8 +109,9 @@ int k_test(CommandOptions o, const Common& common) {
     std::vector<Vec3> places;
     std::vector<double> angles;
     for (const auto& s : turn->samples) places.push_back(s.place), angles.push_back(s.turned);
-    const auto range = circular_tests::direction_ranges(places, deviations, test.direction(), test.centre());
-    const Vec3 span = ranges(deviations);
+    const auto range =
+        circular_tests::direction_ranges(places, deviations, test.set().direction, test.set().centre);
+    const Vec3 span = span_of(deviations);
     out[sense] = {{"range_um", vector_json(span, um)},
                   {"radial_um", range.radial * um},
                   {"tangential_um", range.tangential * um},
@@ -165,7 +171,7 @@ std::vector<StudyRow> study(BallTest& test, const CommandOptions& o) {
       StudyRow row{feed, start, Vec3::Zero(), Vec3::Zero()};
       for (std::size_t k = 0; k < o.repeats; ++k) {
         const auto motion = test.run(feed, start);
-        const auto result = evaluate_turn(test, motion.there, {o.cutoff});
+        const auto result = identification::evaluate_turn(test.set(), motion.there, {o.cutoff});
         row.difference += dynamic_less_static(result.angles, result.read, stops).cwiseAbs2();
         row.cleaned += dynamic_less_static(result.angles, result.cleaned, stops).cwiseAbs2();
       }
@@ -218,7 +224,7 @@ int r_test(CommandOptions o, const Common& common) {
     return r_test_study(test, o, session.machine(), common.json);
   }
   const auto motion = test.run(o.feed, test.start());
-  const auto result = evaluate_turn(test, motion.there, {o.cutoff});
+  const auto result = identification::evaluate_turn(test.set(), motion.there, {o.cutoff});
   const auto stops = o.stops > 0 ? test.stop(o.stops, test.start()) : std::vector<BallSample>{};
   const double speed = std::abs(motion.there.speed);
   bus::Json out = {{"machine", session.machine()},
@@ -226,13 +232,13 @@ int r_test(CommandOptions o, const Common& common) {
                    {"source", o.source},
                    {"feed_mm_per_min", o.feed},
                    {"speed_rad_per_s", speed},
-                   {"radius_mm", test.radius()},
-                   {"ball_mm", vector_json(test.ball(), 1)},
+                   {"radius_mm", test.set().radius},
+                   {"ball_mm", vector_json(test.set().ball, 1)},
                    {"interval_s", motion.there.interval},
                    {"readings", result.angles.size()},
                    {"noise_um", vector_json(motion.there.noise, um)},
-                   {"range_um", vector_json(ranges(result.read), um)},
-                   {"cleaned_range_um", vector_json(ranges(result.cleaned), um)},
+                   {"range_um", vector_json(span_of(result.read), um)},
+                   {"cleaned_range_um", vector_json(span_of(result.cleaned), um)},
                    {"dynamic", json_of(result.location)}};
   for (const auto& s : motion.servos)
     out["servos"].push_back({{"axis", std::string(1, s.letter)},
@@ -254,7 +260,7 @@ int r_test(CommandOptions o, const Common& common) {
   if (stops.size() >= 4) {
     difference = dynamic_less_static(result.angles, result.read, stops);
     cleaned = dynamic_less_static(result.angles, result.cleaned, stops);
-    standing = locate_from_stops(test, stops);
+    standing = identification::locate_from_stops(test.set(), stops);
     out["static"] = json_of(standing);
     out["static"]["stops"] = stops.size();
     out["dynamic_less_static_um"] = vector_json(difference, um);
@@ -300,8 +306,8 @@ int r_test(CommandOptions o, const Common& common) {
         s.response.position_gain, s.response.feedforward, s.response.fit);
   std::cout << text("%-34s %10s %10s %10s\n", "", "X", "Y", "Z");
   std::cout << table_row("noise at rest, standard deviation", motion.there.noise, "um") << "\n"
-            << table_row("largest less least, as read", ranges(result.read), "um") << "\n"
-            << table_row("  without servo, noise, pitch", ranges(result.cleaned), "um") << "\n";
+            << table_row("largest less least, as read", span_of(result.read), "um") << "\n"
+            << table_row("  without servo, noise, pitch", span_of(result.cleaned), "um") << "\n";
   if (stops.size() >= 4)
     std::cout << table_row("dynamic less static, standard dev.", difference, "um") << "\n"
               << table_row("  without servo, noise, pitch", cleaned, "um") << "\n";

@@ -9,38 +9,30 @@
 
 #include "channel_motion.hpp"
 #include "circle_report.hpp"
+#include "circular_tests/circle_program.hpp"
 #include "circular_tests/turns.hpp"
 #include "figures.hpp"
-#include "geometry/angle.hpp"
+#include "identification/circle_points.hpp"
 #include "machine/kinematics.hpp"
 #include "storage/file.hpp"
+#include "true_machine.hpp"
 #include "truth/measurement.hpp"
 #include "truth_picture.hpp"
 
 namespace trunnion::cli {
 namespace {
 
-using circular_tests::PlanePoint;
 using circular_tests::ProgrammedCircle;
 using truth::Vec3;
 
-constexpr std::uint16_t decimation = 8;           // one sample in a cycle of 1 ms
-constexpr double found_within = 1e-4;             // mm: of a recording, the path from its circle
-constexpr double circle_positioning_feed = 6000;  // mm/min
+constexpr std::uint16_t decimation = 8;  // one sample in a cycle of 1 ms
+constexpr double found_within = 1e-4;    // mm: of a recording, the path from its circle
 
 struct CircleOptions {
   std::string machine, plane = "XY", source = "true", recording, plot, output, at;
   double radius = 100, feed = 1000, start = 0, overrun = 45, tool_length = 0;
   std::uint16_t channel = 0;
 };
-
-struct CirclePlane {
-  std::size_t first = 0, second = 1;
-};
-
-CirclePlane plane_of(const std::string& name) {
-  return {static_cast<std::size_t>(name[0] - 'X'), static_cast<std::size_t>(name[1] - 'X')};
-}
 
 // The circle's centre in machine coordinates: as given, or where the axes stand.
 Vec3 centre_of(const CircleOptions& o, const ServoSession& session) {
@@ -67,93 +59,11 @@ void check_circle(const CircleOptions& o, const ServoSession& session, const Vec
   }
 }
 
-// Radially to the circle, a turn and the overruns at both ends, back to the centre; both senses.
-std::string circle_program(const CircleOptions& o, const ServoSession& session, const Vec3& centre) {
-  const auto plane = plane_of(o.plane);
-  const char first = o.plane[0], second = o.plane[1];
-  const auto word = [](char letter) { return static_cast<char>('I' + (letter - 'X')); };
-  const auto point = [&](double angle) {
-    const auto [s, c] = geometry::sine_cosine(angle);
-    return PlanePoint{o.radius * c, o.radius * s};
-  };
-  const double x = centre[static_cast<Eigen::Index>(plane.first)],
-               y = centre[static_cast<Eigen::Index>(plane.second)];
-  const auto to_centre = text("G53 G1 %c%.6f %c%.6f F%g\n", first, x, second, y, circle_positioning_feed);
-  std::string program = o.plane == "XY" ? "G17" : o.plane == "XZ" ? "G18" : "G19";
-  program += " G90 G94\n";
-  program += text("G53 G1 X%.6f Y%.6f Z%.6f F%g\n", centre[0], centre[1], centre[2], circle_positioning_feed);
-  for (const int sense : {1, -1}) {
-    const double from = o.start - sense * o.overrun, to = o.start + sense * o.overrun;
-    const auto begin = point(from), end = point(to);
-    // G18 has its plane from Z to X, which is the other sense.
-    const char* arc = (sense > 0) == (o.plane != "XZ") ? "G3" : "G2";
-    program += text("G53 G1 %c%.6f %c%.6f F%.3f\n", first, x + begin.first, second, y + begin.second, o.feed);
-    const auto to_middle = text("%c%.6f %c%.6f", word(first), -begin.first, word(second), -begin.second);
-    program += text("%s %s F%.3f\n", arc, to_middle.c_str(), o.feed);
-    if (o.overrun > 0)
-      program += text("G91 %s %c%.6f %c%.6f %s\nG90\n", arc, first, end.first - begin.first, second,
-                      end.second - begin.second, to_middle.c_str());
-    program += to_centre;
-  }
+std::string program_of(const CircleOptions& o, const ServoSession& session, const Vec3& centre) {
+  std::vector<std::pair<char, double>> after;
   for (const auto& axis : session.axes())
-    if (axis.letter >= 'X' && axis.letter <= 'Z')
-      program += text("G53 G1 %c%.6f F%g\n", axis.letter, axis.place, circle_positioning_feed);
-  return program + "G17\nM30\n";
-}
-
-std::vector<PlanePoint> commanded_points(const ChannelMotion& motion, const CirclePlane& plane) {
-  std::vector<PlanePoint> points;
-  points.reserve(motion.count);
-  for (std::size_t i = 0; i < motion.count; ++i)
-    points.push_back({motion.commanded(plane.first, i), motion.commanded(plane.second, i)});
-  return points;
-}
-
-std::vector<PlanePoint> encoder_points(const ChannelMotion& motion, const CirclePlane& plane) {
-  std::vector<PlanePoint> points;
-  points.reserve(motion.count);
-  for (std::size_t i = 0; i < motion.count; ++i)
-    points.push_back({motion.feedback(plane.first, i), motion.feedback(plane.second, i)});
-  return points;
-}
-
-// The true tip as positions of X, Y and Z of a machine without errors; the ball of the table is set where the
-// tip truly is at the centre.
-std::vector<PlanePoint> true_points(const ChannelMotion& motion, const CirclePlane& plane,
-                                    const ProgrammedCircle& circle, const TrueMachine& machine) {
-  const auto& chain = machine.report->model();
-  const double length = machine.report->tool_length;
-  truth::MachinePose middle;
-  for (std::size_t axis = 0; axis < truth::axis_count; ++axis)
-    middle.positions[axis] = motion.commanded(axis, 0);
-  middle.positions[plane.first] = circle.centre.first;
-  middle.positions[plane.second] = circle.centre.second;
-  middle.tool_length = length;
-  middle.temperatures = machine.report->temperatures;
-  const auto angles = geometry::angles_of(middle.positions.data());
-  const auto as_axes = [&](const Vec3& tip) -> PlanePoint {
-    const Vec3 at = chain.machine_from_tip(tip, angles, length);
-    return {at[static_cast<Eigen::Index>(plane.first)], at[static_cast<Eigen::Index>(plane.second)]};
-  };
-  const auto ball = as_axes(machine.report->geometry().pose(middle).tip);
-  std::vector<PlanePoint> points;
-  points.reserve(motion.count);
-  for (const auto& tip : true_tips(motion, *machine.report)) {
-    const auto at = as_axes(tip);
-    points.push_back(
-        {at.first - ball.first + circle.centre.first, at.second - ball.second + circle.centre.second});
-  }
-  return points;
-}
-
-// The speed along the commanded circle that was reached, mm/min.
-double feed_reached(const std::vector<PlanePoint>& commanded, const circular_tests::Turn& turn,
-                    double interval) {
-  double way = 0;
-  for (std::size_t i = turn.begin; i + 1 < turn.end; ++i)
-    way += std::hypot(commanded[i + 1].first - commanded[i].first,
-                      commanded[i + 1].second - commanded[i].second);
-  return way / (static_cast<double>(turn.end - turn.begin - 1) * interval) * 60;
+    if (axis.letter >= 'X' && axis.letter <= 'Z') after.emplace_back(axis.letter, axis.place);
+  return circular_tests::circle_program({o.plane, centre, o.radius, o.feed, o.start, o.overrun}, after);
 }
 
 void write_readings(const std::string& path, const std::vector<circular_tests::RadialReading>& ccw,
@@ -166,7 +76,7 @@ void write_readings(const std::string& path, const std::vector<circular_tests::R
 }
 
 int measure_circle(const CircleOptions& o, const Common& common) {
-  const auto plane = plane_of(o.plane);
+  const auto plane = circular_tests::plane_of(o.plane);
   const bool from_truth = o.source == "true";
   ChannelMotion motion;
   ProgrammedCircle circle;
@@ -178,7 +88,7 @@ int measure_circle(const CircleOptions& o, const Common& common) {
           "--source true reads truth.yaml: name the machine, or choose --source encoder");
     motion = motion_of_recording(o.recording, o.channel, parameters);
     try {
-      circle = circular_tests::find_circle(commanded_points(motion, plane), found_within);
+      circle = circular_tests::find_circle(identification::commanded_points(motion, plane), found_within);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(o.recording + ": plane " + o.plane + ": " + error.what());
     }
@@ -187,28 +97,28 @@ int measure_circle(const CircleOptions& o, const Common& common) {
     ServoSession session(o.machine, common.domain, o.channel);
     const auto centre = centre_of(o, session);
     check_circle(o, session, centre);
-    motion = run_sampled(session, circle_program(o, session, centre), "XYZ", decimation);
+    motion = run_sampled(session, program_of(o, session, centre), "XYZ", decimation);
     circle = {
         {centre[static_cast<Eigen::Index>(plane.first)], centre[static_cast<Eigen::Index>(plane.second)]},
         o.radius};
     name = session.machine(), directory = session.machine_directory();
     parameters = session.parameters();
   }
-  const auto commanded = commanded_points(motion, plane);
+  const auto commanded = identification::commanded_points(motion, plane);
   const auto turns = circular_tests::turns_on(commanded, circle);
   if (turns.empty()) throw std::runtime_error("the axes have not made a whole turn");
   truth::BallbarMeasurement measured;
-  std::vector<PlanePoint> points;
+  identification::CirclePoints points;
   truth::InstrumentTruth instrument_truth;
   if (from_truth) {
     auto machine = load_true_machine(directory, o.channel, {});
     machine.report = std::make_unique<truth::PoseReport>(
         machine.report->geometry(), machine::make_chain(parameters, o.channel), machine.outline);
     machine.report->tool_length = o.tool_length;
-    points = true_points(motion, plane, circle, machine);
+    points = identification::true_points(motion, plane, circle, *machine.report);
     instrument_truth = instrument(machine, "ballbar");
   } else {
-    points = encoder_points(motion, plane);
+    points = identification::encoder_points(motion, plane);
   }
   truth::Instrument bar(instrument_truth);
   double feed = 0;
@@ -217,13 +127,13 @@ int measure_circle(const CircleOptions& o, const Common& common) {
     if (!readings.empty()) continue;
     readings = circular_tests::readings_of(points, turn, circle);
     for (auto& reading : readings) reading.deviation = bar.read(reading.deviation);
-    feed = std::max(feed, feed_reached(commanded, turn, motion.interval));
+    feed = std::max(feed, circular_tests::feed_reached(commanded, turn, motion.interval));
   }
   if (measured.ccw.empty() || measured.cw.empty())
     throw std::runtime_error(std::string("the circle was run in one sense only (") +
                              (measured.cw.empty() ? "counter-" : "") +
                              "clockwise): a circular test needs both");
-  const auto report = circle_report(o.plane, circle.radius, measured.ccw, measured.cw);
+  const auto report = circular_tests::circle_report(o.plane, circle.radius, measured.ccw, measured.cw);
   const double lag = feed > 0 ? report.causes.lag_mismatch / (feed / 60) * 1e3 : 0;
   const auto& turn = turns.front();
   if (!o.output.empty()) write_readings(o.output, measured.ccw, measured.cw);

@@ -16,20 +16,6 @@ bus::Json scaled(const std::array<double, 4>& values) {
 
 }  // namespace
 
-CircleReport circle_report(const std::string& plane, double radius, circular_tests::Readings ccw,
-                           circular_tests::Readings cw) {
-  CircleReport r{plane,
-                 radius,
-                 circular_tests::circular_figures(ccw, cw, radius),
-                 circular_tests::ballbar_causes(ccw, cw, radius),
-                 {}};
-  r.shares = circular_tests::cause_shares(r.causes, radius);
-  for (auto& share : r.shares)
-    if (share.name.ends_with('1') || share.name.ends_with('2'))
-      share.name.back() = plane[share.name.back() == '1' ? 0 : 1];
-  return r;
-}
-
 void print_figure(const std::string& name, double value, const char* unit) {
   char line[160];
   std::snprintf(line, sizeof line, "%-34s %10.3f %s", name.c_str(), value, unit);

@@ -7,18 +7,15 @@
 #include <string>
 
 #include "bus/json.hpp"
+#include "text/printed.hpp"
 #include "truth/pose_report.hpp"
 
 namespace trunnion::cli {
 
 constexpr double um = 1e3, urad = 1e6;  // of mm, of rad
 
-/// As printf, at most 240 bytes.
-std::string text(const char* format, auto... values) {
-  char line[240];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
+/// As printf.
+std::string text(const char* format, auto... values) { return text::printed(format, values...); }
 
 /// The same as a line on standard output, which appears at once.
 void print(const char* format, auto... values) { std::cout << text(format, values...) << std::endl; }

@@ -33,21 +33,6 @@ const char* state_of(const GantryPair& pair, const idl::stream::FeedbackFrame& f
   return "coupled";
 }
 
-// The parameter that makes the places where the sides are now belong together.
-struct AutoOffset {
-  std::uint32_t number = 0;
-  double now = 0, proposal = 0;  // mm
-};
-
-AutoOffset auto_offset(const machine::Parameters& p, const GantryPair& pair, double error) {
-  // Of an absolute encoder the position is kept and has no reference coordinate any longer.
-  const bool absolute = p.integer(parameter::homing_direction, pair.slave) == 0;
-  const auto& key = absolute ? parameter::gantry_zero_deviation : parameter::reference_coordinate;
-  AutoOffset offset{key.number(pair.slave), p.get(key, pair.slave), 0};
-  offset.proposal = std::round((offset.now + (absolute ? error : -error)) * 1e6) / 1e6;
-  return offset;
-}
-
 void print_limit(const char* what, double value, const char* unit, double limit, std::uint32_t number) {
   if (limit <= 0)
     print("  %-22s %12.4f %-7s not supervised (parameter %s)", what, value, unit,
@@ -89,7 +74,7 @@ int show_gantry(const GantryOptions& o, const Common& common) {
       const auto d = stream::gantry_difference(pair, feedback, offsets[k]);
       const double shown = p.integer(parameter::slave_display_mode, pair.slave) == 1 ? feedback.position[m]
                                                                                      : feedback.position[s];
-      const auto offset = auto_offset(p, pair, d.position);
+      const auto offset = machine::auto_offset(p, pair, d.position);
       const std::string state = state_of(pair, feedback);
       const bool moves = std::any_of(feedback.channels.begin(), feedback.channels.end(),
                                      [](const auto& echo) { return echo.active; });

@@ -55,7 +55,7 @@ int ballbar(const MeasureOptions& o, bool json) {
   path.second = o.plane[1] == 'Y' ? 1 : 2;
   if (o.points > 0) path.points = o.points;
   const auto m = truth::measure_ballbar(*machine.report, path, instrument(machine, "ballbar"));
-  const auto r = circle_report(o.plane, path.radius, m.ccw, m.cw);
+  const auto r = circular_tests::circle_report(o.plane, path.radius, m.ccw, m.cw);
   write_plot(o.plot, ballbar_picture(m, machine.name + ", plane " + o.plane), json);
   if (json) {
     auto out = report_json(r);
@@ -125,7 +125,7 @@ int laser(const MeasureOptions& o, bool json) {
   return 0;
 }
 
-int rtest(const MeasureOptions& o, bool json) {
+int sensor_nest(const MeasureOptions& o, bool json) {
   const auto machine = machine_of(o);
   const auto index = o.axis.size() == 1 ? std::string_view("ABCUVW").find(o.axis[0]) : std::string_view::npos;
   if (index == std::string_view::npos || !machine.report->model().turns(index))
@@ -171,6 +171,22 @@ CLI::App* add_measurement(CLI::App& app, Common& common, const std::string& name
   return command;
 }
 
+CLI::App* add_sensor_nest(CLI::App& measure, Common& common, const std::string& name,
+                          const std::shared_ptr<MeasureOptions>& options) {
+  auto* nest = add_measurement(
+      measure, common, name,
+      "The geometry alone: a rotary axis turns while the control keeps the tip at a place of the workpiece "
+      "(RTCP), from stop to stop; in motion: r-test. Angle, "
+      "three sensors, deviation x y z",
+      options, &sensor_nest);
+  nest->add_option("--axis", options->axis, "Rotary axis (default C)");
+  nest->add_option("--from", options->from, "deg (default: the travel, at most a turn)");
+  nest->add_option("--to", options->to, "deg");
+  nest->add_option("--at", options->at, "Place X,Y,Z of the ball in the workpiece frame (default 0,0,0)");
+  nest->add_option("--points", options->points, "Angles (default 13)")->check(CLI::Range(2, 10000));
+  return nest;
+}
+
 }  // namespace
 
 void add_measure_command(CLI::App& app, Common& common) {
@@ -200,17 +216,8 @@ void add_measure_command(CLI::App& app, Common& common) {
   beam->add_option("--points", options->points, "Targets (default 11)")->check(CLI::Range(2, 10000));
   beam->add_option("--runs", options->runs, "Runs up and down (default 5)")->check(CLI::Range(2, 1000));
   beam->add_option("--plot", options->plot, "Write the deviations (SVG)");
-  auto* nest = add_measurement(
-      *measure, common, "rtest",
-      "The geometry alone: a rotary axis turns while the control keeps the tip at a place of the workpiece "
-      "(RTCP), from stop to stop; in motion: r-test. Angle, "
-      "three sensors, deviation x y z",
-      options, &rtest);
-  nest->add_option("--axis", options->axis, "Rotary axis (default C)");
-  nest->add_option("--from", options->from, "deg (default: the travel, at most a turn)");
-  nest->add_option("--to", options->to, "deg");
-  nest->add_option("--at", options->at, "Place X,Y,Z of the ball in the workpiece frame (default 0,0,0)");
-  nest->add_option("--points", options->points, "Angles (default 13)")->check(CLI::Range(2, 10000));
+  add_sensor_nest(*measure, common, "sensor-nest", options);
+  add_sensor_nest(*measure, common, "rtest", options)->group("");  // its name up to 0.3
 }
 
 }  // namespace trunnion::cli

@@ -17,6 +17,7 @@
 #include "cluster/child_process.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/machine_session.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/stream_settings.hpp"
@@ -33,7 +34,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using idl::channel::CommandKind;
-using idl::channel::Mode;
 using idl::channel::RunState;
 
 constexpr double activation_timeout = 10;  // s from the reset until parameters are active
@@ -142,18 +142,6 @@ void await_recorder(cluster::Client& client) {
   const auto channels = client.bus().backend().writer(bus::describe(topics::channel_request), {false, 1});
   for (int i = 0; i < 2000 && (programs->matched() < 2 || channels->matched() < 2); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
-
-// The list with a new program may reach the channel after the store's answer has reached us.
-void select(cluster::Client& client, std::uint16_t channel, const std::string& name) {
-  for (int i = 0;; ++i) {
-    try {
-      return client.select_program(channel, name);
-    } catch (const std::exception&) {
-      if (i == 50) throw;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-  }
 }
 
 void draw_progress(const std::vector<idl::channel::ChannelState>& states, double seconds) {
@@ -333,8 +321,7 @@ ClusterGuard start_for(const std::string& directory, const RunOptions& options) 
 
 void select_first(cluster::Client& client, const machine::MachineConfig& machine, const RunOptions& options) {
   const auto name = place_program(client, machine, options.programs.at(0));
-  client.set_mode(0, Mode::AUTO);
-  select(client, 0, name);
+  cluster::MachineSession(client, 0).select(name);
 }
 
 // As an import and a reset do.
@@ -397,8 +384,7 @@ RunResult run_programs(const RunOptions& options) {
     for (std::uint16_t c = 0; c < options.programs.size(); ++c) {
       names.push_back(place_program(client, machine, options.programs[c]));
       texts.push_back(client.download(names.back()));
-      client.set_mode(c, Mode::AUTO);
-      select(client, c, names.back());
+      cluster::MachineSession(client, c).select(names.back());
     }
     const bool bar = !options.quiet && isatty(2) != 0;
     result.alarm = options.continue_starved ? execute_starved(client, options.programs.size(), options, bar,

@@ -167,7 +167,9 @@ void add_run_command(CLI::App& app, Common& common) {
   command->add_option("--from-line", options->from_line, "Start the first program from this line");
   command->add_flag("--dry-run", options->dry_run, "Parameter 04c914 takes the place of programmed feeds");
   command->add_option("--timeout", options->timeout, "Seconds of wall time after which the run has failed");
+}
 
+void add_bench_command(CLI::App& app, Common& common) {
   auto machine = std::make_shared<std::string>("ac-table"),
        program = std::make_shared<std::string>("nas979_cone");
   auto vendors =
@@ -176,7 +178,7 @@ void add_run_command(CLI::App& app, Common& common) {
   auto seconds = std::make_shared<double>(0);
   auto real_time = std::make_shared<bool>(false), recording = std::make_shared<bool>(false);
   auto subject = std::make_shared<std::string>("stream");
-  command =
+  auto* command =
       add_command(app, common, "bench",
                   "Measure the stream: the speed of a program in virtual time over the DDS vendors, or "
                   "starved cycles and delays in real time; or the planner: the reference motions and its "

@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "figures.hpp"
+#include "servo_analysis/tuning_task.hpp"
 #include "servo_tests.hpp"
 #include "storage/file.hpp"
 
@@ -90,18 +91,18 @@ int run_test(const ServoOptions& o, const Common& common,
   return report.reached() ? 0 : 1;
 }
 
-void say_tuned(const SessionAxis& axis, const servo_analysis::TuningResult& result, double amplitude_um) {
+void say_tuned(const TestedAxis& axis, const servo_analysis::TuningResult& result, double amplitude_um) {
   print("%c  %s; largest vibration %.2f um of %g um", axis.letter,
         result.reached() ? "every limit is reached" : "NOT every limit is reached",
         result.largest_vibration * 1e3, amplitude_um);
-  if (result.settings.position_gain < least_position_gain)
+  if (result.settings.position_gain < servo_analysis::least_position_gain)
     print("%c  position gain %.4g 1/s, the limit of servo test position is %.1f 1/s: stiffen the axis",
-          axis.letter, result.settings.position_gain, least_position_gain);
+          axis.letter, result.settings.position_gain, servo_analysis::least_position_gain);
 }
 
 int tune(const ServoOptions& o, const Common& common) {
   ServoSession session(o.machine, common.domain, o.channel);
-  std::vector<const SessionAxis*> axes;
+  std::vector<const TestedAxis*> axes;
   for (const auto& letter : o.axes)
     if (letter == "all")
       for (const auto& a : session.axes()) axes.push_back(&a);
@@ -111,8 +112,8 @@ int tune(const ServoOptions& o, const Common& common) {
   bus::Json out = {{"machine", session.machine()}, {"amplitude_um", o.amplitude_um}};
   bool reached = true;
   for (const auto* a : axes) {
-    const auto* partner = partner_of(session, *a);
-    auto task = tuning_task(session, *a, partner, o.amplitude_um / 1000);
+    const auto* partner = servo_analysis::partner_of(session.axes(), *a);
+    auto task = servo_analysis::tuning_task(session.parameters(), *a, partner, o.amplitude_um / 1000);
     if (!task.circles) partner = nullptr;
     if (!common.json)
       task.progress = [&](const std::string& line) { print("%c  %s", a->letter, line.c_str()); };

@@ -23,20 +23,7 @@ TestReport test_current(ServoSession& session, const TestOptions& o) {
   const auto result = session.run(q, "");
   if (result.traces.empty()) throw std::runtime_error("the drive gave no samples");
   const auto& t = result.traces[0];
-  // In the period of a step the other loops do nothing yet: the torque changes by a share of the step, which
-  // is the period over the time constant.
-  double both = 0, square = 0;
-  for (std::size_t i = 1; i < t.size(); ++i) {
-    const double step = t.excitation[i] - t.excitation[i - 1];
-    both += step * (t.torque[i] - t.torque[i - 1]);
-    square += step * step;
-  }
-  if (!(both > 0)) throw std::runtime_error("the torque does not follow its setpoint");
-  const double time = t.interval / (both / square);
-  TestReport r;
-  r.test = "current";
-  r.figures = {{"time constant", time * 1e3, "ms", {}, {}}, {"bandwidth", 1 / time, "1/s", {}, {}}};
-  r.notes.push_back("PA27 of the manual: 6000 for a hardware current loop, 3000 to 4000 for an ordinary one");
+  auto r = report_of("current", servo_analysis::current_findings(servo_analysis::current_time_constant(t)));
   r.picture = curves_picture(
       picture_title(session, a, "current loop"), "s", "share of the rated torque",
       {over_time("excitation", t.excitation, t.interval, 1), over_time("torque", t.torque, t.interval, 1)});
@@ -69,17 +56,7 @@ TestReport test_frequency(ServoSession& session, const TestOptions& o) {
   const bool position = o.loop == "position";
   const auto &open = position ? all.position_open : all.speed_open,
              &closed = position ? all.position_closed : all.speed_closed;
-  const auto m = servo_analysis::margins(open);
-  TestReport r;
-  r.test = "frequency";
-  if (m.crossover) r.figures.push_back({"crossover frequency", *m.crossover, "Hz", {}, {}});
-  if (m.phase_margin) r.figures.push_back({"phase margin", *m.phase_margin, "deg", 30, {}});
-  if (m.gain_margin) r.figures.push_back({"gain margin", 20 * std::log10(*m.gain_margin), "dB", 1.9, {}});
-  if (const auto b = servo_analysis::bandwidth(closed))
-    r.figures.push_back({"bandwidth (-3 dB)", *b, "Hz", {}, {}});
-  r.figures.push_back(
-      {"resonance peak", 20 * std::log10(servo_analysis::resonance_peak(closed)), "dB", {}, {}});
-  r.notes.push_back("1.9 dB are 80 % of the critical gain; 30 deg are our choice");
+  auto r = report_of("frequency", servo_analysis::frequency_findings(open, closed));
   for (std::size_t i = 0; i < open.size(); ++i)
     r.details["response"].push_back(
         {open[i].frequency, 20 * std::log10(std::abs(open[i].value)), std::arg(open[i].value) * 180 / M_PI,
@@ -100,24 +77,15 @@ TestReport test_friction(ServoSession& session, const TestOptions& o) {
     if (feed >= 600) inertia = servo_analysis::identify_inertia(trace);
   }
   const auto f = servo_analysis::identify_friction(points);
-  TestReport r;
-  r.test = "friction";
-  const std::string share = "of the rated torque", per = share + " per " + length_unit(a) + "/s";
-  const double rated = 1.5 * a.acceleration;
-  r.figures = {{"Coulomb friction", f.coulomb, share, {}, {}},
-               {"breakaway friction", f.breakaway, share, {}, {}},
-               {"Stribeck speed", f.stribeck_speed, length_unit(a) + "/s", {}, {}},
-               {"viscous friction", f.viscous, per, {}, {}},
-               {"weight", f.gravity, share, {}, {}},
-               {"inertia over the nominal one", inertia * rated, "", {}, {}},
-               {"residual", f.residual, share, {}, {}}};
+  auto r = report_of("friction", servo_analysis::friction_findings(a, f, inertia));
   PictureCurve measured{"torque at constant speed", {}};
   std::sort(points.begin(), points.end(), [](const auto& p, const auto& q) { return p.speed < q.speed; });
   for (const auto& p : points) {
     measured.points.push_back({p.speed, p.torque});
     r.details["points"].push_back({p.speed, p.torque});
   }
-  r.picture = curves_picture(picture_title(session, a, "friction"), length_unit(a) + "/s", share, {measured});
+  r.picture = curves_picture(picture_title(session, a, "friction"), a.length_unit() + "/s",
+                             "of the rated torque", {measured});
   return r;
 }
 
@@ -134,57 +102,9 @@ TestReport test_encoders(ServoSession& session, const TestOptions& o) {
   if (result.traces.empty() || result.traces[0].size() < 2)
     throw std::runtime_error("the drive gave no samples of the motion");
   const auto& t = result.traces[0];
-  // The far half of the way there: backlash and friction are behind it.
-  const auto phases = servo_analysis::constant_phases(t, 0.2);
-  if (phases.empty()) throw std::runtime_error("the motion had no constant speed");
-  const auto end = phases.front().end, half = (phases.front().begin + end) / 2;
-  double motor_mean = 0, load_mean = 0, both = 0, square = 0;
-  for (std::size_t i = half; i < end; ++i) motor_mean += t.motor[i], load_mean += t.load[i];
-  motor_mean /= static_cast<double>(end - half), load_mean /= static_cast<double>(end - half);
-  for (std::size_t i = half; i < end; ++i) {
-    both += (t.motor[i] - motor_mean) * (t.load[i] - load_mean);
-    square += std::pow(t.motor[i] - motor_mean, 2);
-  }
-  const double ratio = square > 0 ? both / square : 0;
-  const double motor = std::copysign(travel, t.motor[end - 1] - t.motor[half]), load = ratio * motor;
-  const double motor_pulses = p.get(parameter::motor_encoder_pulses, a.number) / travel;
-  const double load_pulses = p.get(parameter::load_encoder_pulses, a.number);
-  TestReport r;
-  r.test = "encoders";
-  // A display of the drive has four digits: the upper one counts 10000 of the lower one, both with the sign.
-  const auto displayed = [&](const char* name, const char* high, const char* low, double pulses) {
-    const double whole = std::round(pulses), upper = std::trunc(whole / 10000);
-    r.figures.push_back({name, pulses, "pulses", {}, {}});
-    r.figures.push_back({high, upper, "10000 pulses", {}, {}});
-    r.figures.push_back({low, whole - 10000 * upper, "pulses", {}, {}});
-  };
-  displayed("motor encoder", "DP-PFH", "DP-PFL", motor * motor_pulses);
-  if (load_pulses > 0) displayed("load encoder", "DP-FPH", "DP-FPL", load * load_pulses / travel);
-  r.figures.push_back({"load over motor", ratio, "", 0.99, 1.01});
-  const auto parameter_text = [&](const auto& key) { return machine::number_text(key.number(a.number)); };
-  if (std::abs(ratio) < 0.01) {
-    r.notes.push_back("the load encoder does not move: look for its cable, or the axis has none");
-  } else {
-    if (ratio < 0) {
-      const int now = p.integer(parameter::load_encoder_reversed, a.number);
-      r.notes.push_back("the load encoder counts in the opposite direction: set " +
-                        parameter_text(parameter::load_encoder_reversed) + " to " + std::to_string(1 - now) +
-                        " (PA10 = 512) before the loop is closed over it");
-      r.proposal.push_back({parameter::load_encoder_reversed.number(a.number), 1.0 - now});
-    }
-    if (std::abs(std::abs(ratio) - 1) > 0.01 && load_pulses > 0) {
-      const double right = std::round(load_pulses * std::abs(ratio));
-      r.notes.push_back("the load encoder gives " + std::to_string(static_cast<long>(right)) +
-                        " pulses for one revolution of the motor: set " +
-                        parameter_text(parameter::load_encoder_pulses) + " (PB46, PB47) to it");
-      r.proposal.push_back({parameter::load_encoder_pulses.number(a.number), right});
-    }
-    if (r.proposal.empty())
-      r.notes.push_back("signs and pulses agree: " + parameter_text(parameter::full_closed_loop) +
-                        " = 1 (STB14) may close the loop over the load encoder");
-  }
+  auto r = report_of("encoders", servo_analysis::encoder_findings(p, a, servo_analysis::compare_encoders(t)));
   r.picture =
-      curves_picture(picture_title(session, a, "encoders"), "s", length_unit(a),
+      curves_picture(picture_title(session, a, "encoders"), "s", a.length_unit(),
                      {over_time("motor", t.motor, t.interval, 1), over_time("load", t.load, t.interval, 1)});
   return r;
 }

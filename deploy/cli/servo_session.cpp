@@ -8,16 +8,12 @@
 #include <cstdio>
 #include <thread>
 
-#include "figures.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
-#include "stored_program.hpp"
 
 namespace trunnion::cli {
 
 using idl::channel::CommandKind;
-using idl::channel::Mode;
-using idl::channel::RunState;
 using idl::servo::TestPhase;
 using servo_analysis::AxisTrace;
 
@@ -39,17 +35,9 @@ void append(AxisTrace& t, const double* v) {
 
 }  // namespace
 
-double SessionAxis::into_travel(double distance) const {
-  distance = std::abs(distance);
-  if (high - place >= distance && high - place >= place - low) return distance;
-  if (place - low >= distance) return -distance;
-  throw std::runtime_error(text("axis %c at %.3f %s cannot move by %.3f: its travel is %.3f .. %.3f", letter,
-                                place, turns ? "deg" : "mm", distance, low, high));
-}
-
 ServoSession::ServoSession(const std::string& machine, std::optional<std::uint32_t> domain,
                            std::uint16_t channel)
-    : channel_(channel), client_id_(service::make_client_id()) {
+    : client_id_(service::make_client_id()) {
   struct sigaction action {};
   action.sa_handler = [](int) { interrupted = true; };
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
@@ -60,43 +48,30 @@ ServoSession::ServoSession(const std::string& machine, std::optional<std::uint32
   requests_ = std::make_unique<bus::Writer<idl::servo::TestRequest>>(bus.writer(topics::servo_test_request));
   alarms_ = std::make_unique<bus::Reader<idl::service::Alarm>>(bus.reader(topics::alarm));
   parameters_ = machine::parameters_of(client_->newest(topics::parameter_set));
-  before_ = state();
-  if (before_.state != RunState::IDLE)
-    throw std::runtime_error("channel " + std::to_string(channel_) + " is busy: end its program or reset it");
-  if (!before_.homed) throw std::runtime_error("axes have no reference: select mode REF and reference them");
+  channel_.emplace(*client_, channel);
+  channel_->take();
   take_axes();
 }
 
 ServoSession::~ServoSession() {
   try {
-    if (moving_) client_->channel(channel_, CommandKind::FEED_HOLD);
+    channel_->hold();
     end_test(nullptr);
-    if (moving_) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(300));
-      client_->channel(channel_, CommandKind::RESET);
-    }
-    if (uploaded_ && !cluster_->own()) {
-      if (!before_.program.empty()) client_->select_program(channel_, before_.program);
-      client_->set_mode(channel_, before_.mode);
-      idl::program::ProgramRequest remove;
-      remove.operation = idl::program::Operation::REMOVE;
-      remove.name = servo_program;
-      client_->program(remove);
-    }
+    channel_->end();
+    if (!cluster_->own()) channel_->restore();
   } catch (const std::exception& e) {
     std::fprintf(stderr, "trunnion: after the servo test: %s\n", e.what());
   }
 }
 
-idl::channel::ChannelState ServoSession::state() { return client_->newest(topics::channel_state, channel_); }
-
 void ServoSession::take_axes() {
-  for (std::size_t i = 0; i < before_.axes.size(); ++i) {
-    SessionAxis a;
-    a.letter = before_.letters[i];
-    a.number = before_.axes[i];
+  const auto& state = channel_->before();
+  for (std::size_t i = 0; i < state.axes.size(); ++i) {
+    TestedAxis a;
+    a.letter = state.letters[i];
+    a.number = state.axes[i];
     a.turns = parameters_.integer(parameter::axis_type, a.number) != machine::axis_type_linear;
-    a.place = before_.machine[i];
+    a.place = state.machine[i];
     const auto travel = machine::travel_of(parameters_, a.number);
     a.low = travel.negative;
     a.high = travel.positive;
@@ -106,14 +81,14 @@ void ServoSession::take_axes() {
   }
 }
 
-const SessionAxis& ServoSession::axis(const std::string& letter) const {
+const TestedAxis& ServoSession::axis(const std::string& letter) const {
   std::string known;
   for (const auto& a : axes_) {
     if (letter.size() == 1 && a.letter == letter[0]) return a;
     known += a.letter;
   }
-  throw std::runtime_error("--axis " + letter + ": channel " + std::to_string(channel_) + " has the axes " +
-                           known);
+  throw std::runtime_error("--axis " + letter + ": channel " + std::to_string(channel_->number()) +
+                           " has the axes " + known);
 }
 
 double ServoSession::tool_length(std::uint32_t number) {
@@ -134,59 +109,28 @@ void ServoSession::check() {
   if (interrupted)
     throw std::runtime_error("interrupted: the axes are stopped, the parameters are those of before");
   for (idl::service::Alarm a; alarms_->take(a);)
-    if (moving_ && a.active && a.severity >= idl::service::Severity::ERROR)
+    if (channel_->moves() && a.active && a.severity >= idl::service::Severity::ERROR)
       throw std::runtime_error("alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text +
                                "; the parameters are those of before");
 }
 
 void ServoSession::start_program(const std::string& program) {
   check();
-  client_->set_mode(channel_, Mode::AUTO);
-  if (program == program_) {  // it is stored still; the channel has put back the operator's
-    client_->select_program(channel_, servo_program);
-    return;
-  }
-  program_.clear();
-  uploaded_ = true;
-  client_->upload(servo_program, program);
-  const auto stored = find_program(client_->newest(topics::program_list), servo_program);
-  // The list with the new program may reach the channel after the store's answer has reached us.
-  const double until = service::monotonic_seconds() + servo_answer_time;
-  for (;;) {
-    try {
-      client_->select_program(channel_, servo_program);
-      if (stored && state().program_revision >= stored->revision) break;
-    } catch (const std::exception&) {
-      if (service::monotonic_seconds() > until) throw;
-    }
-    if (service::monotonic_seconds() > until)
-      throw std::runtime_error("the channel does not take the program of the test");
-    pause();
-  }
-  program_ = program;
+  channel_->select_temporary(servo_program, program);
 }
 
 // Reads samples meanwhile, so that none is lost.
 void ServoSession::await_end(SessionResult* result) {
-  moving_ = true;
-  client_->channel(channel_, CommandKind::CYCLE_START);
-  auto states = client_->reader_from_now(topics::channel_state);
-  const double until = service::monotonic_seconds() + longest_motion;
-  while (service::monotonic_seconds() < until) {
-    check();
-    if (result != nullptr) take_samples(*result);
-    for (idl::channel::ChannelState s; states.take(s);) {
-      if (s.channel != channel_) continue;
-      if (s.state == RunState::HELD || s.state == RunState::INTERRUPTED)
-        throw std::runtime_error("the motion of the test was held or interrupted");
-      if (s.state == RunState::IDLE) {
-        moving_ = false;
-        return;
-      }
-    }
-    client_->bus().signal().wait(0.01);
-  }
-  throw std::runtime_error("the motion of the test did not end");
+  const auto end = channel_->run(
+      [&] {
+        check();
+        if (result != nullptr) take_samples(*result);
+      },
+      longest_motion);
+  if (end == cluster::MachineSession::End::stopped)
+    throw std::runtime_error("the motion of the test was held or interrupted");
+  if (end == cluster::MachineSession::End::overdue)
+    throw std::runtime_error("the motion of the test did not end");
 }
 
 void ServoSession::begin_test(const idl::servo::TestRequest& request) {
@@ -290,29 +234,7 @@ void ServoSession::write(const std::vector<servo_analysis::ServoSettings::Value>
   for (const auto& v : values) request.values.push_back({v.number, v.value, ""});
   request.who = who;
   client_->parameter(std::move(request));
-  client_->channel(channel_, CommandKind::RESET);
-}
-
-std::string to_and_fro_program(const SessionAxis& axis, double distance, double feed, int strokes) {
-  // Incremental: an axis that counts modulo 360 would go to an angle by the shorter way.
-  std::string program = "G91\n";
-  for (int i = 0; i < strokes + strokes % 2; ++i)
-    program += text("G1 %c%.6f F%.3f\n", axis.letter, i % 2 == 0 ? distance : -distance, feed);
-  return program + "G90\nM30\n";
-}
-
-std::string circle_program(const SessionAxis& first, const SessionAxis& second, double radius, double feed) {
-  const double to_centre = first.into_travel(2 * radius) / 2;
-  if (second.place - radius < second.low || second.place + radius > second.high)
-    throw std::runtime_error(text("axis %c at %.3f mm has no space for a circle of radius %.3f mm",
-                                  second.letter, second.place, radius));
-  const auto centre_word = [](char letter) { return static_cast<char>('I' + (letter - 'X')); };
-  const std::string both{std::min(first.letter, second.letter), std::max(first.letter, second.letter)};
-  const char* plane = both == "XY" ? "G17" : both == "XZ" ? "G18" : both == "YZ" ? "G19" : nullptr;
-  if (plane == nullptr) throw std::runtime_error("a circle needs two of the axes X, Y, Z");
-  const auto turn =
-      text("G3 %c%.6f %c0 F%.3f\n", centre_word(first.letter), to_centre, centre_word(second.letter), feed);
-  return std::string(plane) + "\n" + turn + turn + "G17\nM30\n";
+  client_->channel(channel_->number(), CommandKind::RESET);
 }
 
 servo_analysis::MotionResult SessionAxisUnderTest::move(const servo_analysis::ServoSettings& trial,

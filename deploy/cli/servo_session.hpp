@@ -9,24 +9,15 @@
 
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/machine_session.hpp"
 #include "machine/parameters.hpp"
 #include "servo_analysis/axis_tuning.hpp"
+#include "servo_analysis/test_programs.hpp"
 #include "session_cluster.hpp"
 
 namespace trunnion::cli {
 
-struct SessionAxis {
-  char letter = 0;
-  std::uint16_t number = 0;  ///< logical
-  bool turns = false;
-  double place = 0;          ///< machine coordinate at the start, mm or deg
-  double low = 0, high = 0;  ///< travel
-  double highest_feed = 0;   ///< mm/min or deg/min
-  double acceleration = 0;   ///< mm/s2 or deg/s2
-  /// `distance` signed: towards the farther end of the travel. Throws std::runtime_error when there is not
-  /// enough.
-  double into_travel(double distance) const;
-};
+using servo_analysis::TestedAxis;
 
 /// The computer did not take the drive's samples in time; the motion has ended.
 struct SamplesLost : std::runtime_error {
@@ -53,8 +44,8 @@ class ServoSession {
   ServoSession& operator=(const ServoSession&) = delete;
 
   /// Throws std::runtime_error when the channel has no such axis.
-  const SessionAxis& axis(const std::string& letter) const;
-  const std::vector<SessionAxis>& axes() const { return axes_; }
+  const TestedAxis& axis(const std::string& letter) const;
+  const std::vector<TestedAxis>& axes() const { return axes_; }
   const machine::Parameters& parameters() const { return parameters_; }
   const std::string& machine() const { return cluster_->running().machine; }
   const std::string& machine_directory() const { return cluster_->running().machine_directory; }
@@ -72,7 +63,6 @@ class ServoSession {
 
  private:
   void take_axes();
-  idl::channel::ChannelState state();
   void start_program(const std::string& program);
   void await_end(SessionResult* result);
   void begin_test(const idl::servo::TestRequest& request);
@@ -83,25 +73,23 @@ class ServoSession {
 
   std::optional<SessionCluster> cluster_;
   std::unique_ptr<cluster::Client> client_;
+  std::optional<cluster::MachineSession> channel_;
   std::unique_ptr<bus::Writer<idl::servo::TestRequest>> requests_;
   std::unique_ptr<bus::Reader<idl::servo::TestSamples>> samples_;
   std::unique_ptr<bus::Reader<idl::service::Alarm>> alarms_;
-  std::string program_;  // the text that is selected
-  std::uint16_t channel_;
   std::uint64_t client_id_, number_ = 0, expected_ = 0;
   idl::servo::TestRequest request_;
   double renewed_ = 0;
-  bool testing_ = false, moving_ = false, uploaded_ = false;
-  idl::channel::ChannelState before_;
+  bool testing_ = false;
   machine::Parameters parameters_;
-  std::vector<SessionAxis> axes_;
+  std::vector<TestedAxis> axes_;
 };
 
 /// One axis of a session, for figures and tuning.
 class SessionAxisUnderTest : public servo_analysis::AxisUnderTest {
  public:
   /// `partner`: for circles; null: none.
-  SessionAxisUnderTest(ServoSession& session, const SessionAxis& axis, const SessionAxis* partner)
+  SessionAxisUnderTest(ServoSession& session, const TestedAxis& axis, const TestedAxis* partner)
       : session_(session), axis_(axis), partner_(partner) {}
   servo_analysis::MotionResult move(const servo_analysis::ServoSettings& trial,
                                     const servo_analysis::ServoSettings& fallback, double vibration_limit,
@@ -109,13 +97,8 @@ class SessionAxisUnderTest : public servo_analysis::AxisUnderTest {
 
  private:
   ServoSession& session_;
-  const SessionAxis& axis_;
-  const SessionAxis* partner_;
+  const TestedAxis& axis_;
+  const TestedAxis* partner_;
 };
-
-/// Blocks of a circle of both axes from the place of the first one, which reverses there: two turns.
-std::string circle_program(const SessionAxis& first, const SessionAxis& second, double radius, double feed);
-/// `strokes` strokes to and fro from the place of the axis.
-std::string to_and_fro_program(const SessionAxis& axis, double distance, double feed, int strokes);
 
 }  // namespace trunnion::cli

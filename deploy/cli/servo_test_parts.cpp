@@ -14,13 +14,17 @@ using idl::servo::TestRequest;
 using servo_analysis::AxisTrace;
 using servo_analysis::per_minute;
 
-const SessionAxis& only_axis(const ServoSession& session, const TestOptions& o) {
+const TestedAxis& only_axis(const ServoSession& session, const TestOptions& o) {
   if (o.axes.size() != 1) throw std::runtime_error("this test is of one axis: --axis X");
   return session.axis(o.axes.front());
 }
 
-std::string length_unit(const SessionAxis& a) { return a.turns ? "deg" : "mm"; }
-std::string speed_unit(const SessionAxis& a) { return a.turns ? "deg/min" : "mm/min"; }
+TestReport report_of(const char* test, servo_analysis::TestFindings findings) {
+  TestReport report;
+  static_cast<servo_analysis::TestFindings&>(report) = std::move(findings);
+  report.test = test;
+  return report;
+}
 
 TestRequest samples_of(const std::vector<std::uint16_t>& axes, std::uint16_t decimation) {
   TestRequest r;
@@ -31,15 +35,7 @@ TestRequest samples_of(const std::vector<std::uint16_t>& axes, std::uint16_t dec
   return r;
 }
 
-// The acceleration settles in 0.1 s.
-std::string stroke_program(const SessionAxis& a, double feed, double time, int strokes) {
-  const double v = feed / per_minute;
-  const double space = std::max(a.high - a.place, a.place - a.low);
-  const double distance = std::min(space, std::max(0.5, v * (time + 0.1) + v * v / a.acceleration));
-  return to_and_fro_program(a, a.into_travel(distance), feed, strokes);
-}
-
-AxisTrace stroke(ServoSession& session, const SessionAxis& a, double feed, int strokes) {
+AxisTrace stroke(ServoSession& session, const TestedAxis& a, double feed, int strokes) {
   auto result = session.run(samples_of({a.number}, 2), stroke_program(a, feed, 0.5, strokes));
   if (result.traces.empty()) throw std::runtime_error("the drive gave no samples of the motion");
   return std::move(result.traces[0]);
@@ -79,18 +75,18 @@ std::vector<AxisTrace> run_without_feedforward(ServoSession& session, TestReques
   return std::move(result.traces);
 }
 
-double feed_of(const SessionAxis& a, const TestOptions& o, double standard) {
+double feed_of(const TestedAxis& a, const TestOptions& o, double standard) {
   const double feed = o.feed.value_or(standard);
   if (!(feed > 0) || feed > a.highest_feed) {
     char text[120];
     std::snprintf(text, sizeof text, "feed %g: axis %c moves with up to %g %s", feed, a.letter,
-                  a.highest_feed, speed_unit(a).c_str());
+                  a.highest_feed, a.speed_unit().c_str());
     throw std::runtime_error(text);
   }
   return feed;
 }
 
-std::string picture_title(const ServoSession& s, const SessionAxis& a, const char* what) {
+std::string picture_title(const ServoSession& s, const TestedAxis& a, const char* what) {
   return s.machine() + ", axis " + a.letter + ": " + what;
 }
 

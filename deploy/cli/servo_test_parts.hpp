@@ -9,16 +9,12 @@ namespace trunnion::cli {
 inline constexpr double longest_test = 600;  // s
 
 /// Throws std::runtime_error when another number of axes than one is given.
-const SessionAxis& only_axis(const ServoSession& session, const TestOptions& options);
-std::string length_unit(const SessionAxis& axis);
-std::string speed_unit(const SessionAxis& axis);
+const TestedAxis& only_axis(const ServoSession& session, const TestOptions& options);
+TestReport report_of(const char* test, servo_analysis::TestFindings findings);
 /// Samples in motion alone.
 idl::servo::TestRequest samples_of(const std::vector<std::uint16_t>& axes, std::uint16_t decimation);
-/// To and fro with `time` s at constant speed where the travel permits.
-std::string stroke_program(const SessionAxis& axis, double feed, double time, int strokes = 2);
-/// The same with 0.5 s.
-servo_analysis::AxisTrace stroke(ServoSession& session, const SessionAxis& axis, double feed,
-                                 int strokes = 2);
+/// To and fro with 0.5 s at constant speed where the travel permits.
+servo_analysis::AxisTrace stroke(ServoSession& session, const TestedAxis& axis, double feed, int strokes = 2);
 /// Throws std::runtime_error when there is no constant speed behind `settling` s.
 servo_analysis::MotionFigures moved_figures(const servo_analysis::AxisTrace& trace, double settling = 0.1);
 /// Highest feed, `feed` at most, at which without feed-forward none of the axes lags by more than half of its
@@ -31,8 +27,8 @@ std::vector<servo_analysis::AxisTrace> run_without_feedforward(ServoSession& ses
                                                                idl::servo::TestRequest request,
                                                                const std::string& program);
 /// That of the options, else `standard`. Throws std::runtime_error when the axis does not reach it.
-double feed_of(const SessionAxis& axis, const TestOptions& options, double standard);
-std::string picture_title(const ServoSession& session, const SessionAxis& axis, const char* what);
+double feed_of(const TestedAxis& axis, const TestOptions& options, double standard);
+std::string picture_title(const ServoSession& session, const TestedAxis& axis, const char* what);
 std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace trunnion::cli

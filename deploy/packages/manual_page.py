@@ -14,9 +14,12 @@ def escape(text): return re.sub(r"^([.'])", r"\\&\1", text.replace("\\", "\\e").
 
 
 def subcommands(text):
-    """Names under the heading Subcommands of CLI11's help, which indents them by two blanks."""
-    part = text.split("Subcommands:\n", 1)
-    return [m.group(1) for m in re.finditer(r"^  (\S+)", part[1], re.M)] if len(part) == 2 else []
+    """Names under the groups of commands of CLI11's help, which indents them by two blanks."""
+    heading, names = "Options", []
+    for line in text.splitlines():
+        if line and not line[0].isspace() and line.endswith(":"): heading = line[:-1]
+        elif heading not in ("Options", "Positionals") and (name := re.match(r"  (\S+)", line)): names.append(name[1])
+    return names
 
 
 def sections(words):

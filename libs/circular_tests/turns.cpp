@@ -125,4 +125,12 @@ std::vector<RadialReading> readings_of(const std::vector<PlanePoint>& actual, co
   return readings;
 }
 
+double feed_reached(const std::vector<PlanePoint>& commanded, const Turn& turn, double interval) {
+  double way = 0;
+  for (std::size_t i = turn.begin; i + 1 < turn.end; ++i)
+    way += std::hypot(commanded[i + 1].first - commanded[i].first,
+                      commanded[i + 1].second - commanded[i].second);
+  return way / (static_cast<double>(turn.end - turn.begin - 1) * interval) * 60;
+}
+
 }  // namespace trunnion::circular_tests

@@ -38,4 +38,7 @@ ProgrammedCircle find_circle(const std::vector<PlanePoint>& commanded, double to
 std::vector<RadialReading> readings_of(const std::vector<PlanePoint>& actual, const Turn& turn,
                                        const ProgrammedCircle& circle);
 
+/// The mean speed along `commanded` in the turn, mm/min; `interval` s between two points.
+double feed_reached(const std::vector<PlanePoint>& commanded, const Turn& turn, double interval);
+
 }  // namespace trunnion::circular_tests

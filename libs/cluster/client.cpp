@@ -116,7 +116,7 @@ void Client::reset_alarms() {
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
 }
 
-void Client::upload(const std::string& name, const std::string& text) {
+std::uint64_t Client::upload(const std::string& name, const std::string& text) {
   idl::program::ProgramRequest request;
   request.operation = idl::program::Operation::BEGIN_UPLOAD;
   request.name = name;
@@ -134,7 +134,7 @@ void Client::upload(const std::string& name, const std::string& text) {
   request.size = text.size();
   request.crc32 = storage::crc32(text);
   request.role = of_the_owner;
-  program(request);
+  return program(request).entry.revision;
 }
 
 std::string Client::download(const std::string& name) {

@@ -45,8 +45,8 @@ class Client {
   /// For an endpoint of a topic that every service and the launcher have: waits until `matched` counts all
   /// that run; 10 s at most.
   void wait_for_all_services(const std::function<int()>& matched);
-  /// Stores `text` under `name` in chunks.
-  void upload(const std::string& name, const std::string& text);
+  /// Stores `text` under `name` in chunks; gives its revision.
+  std::uint64_t upload(const std::string& name, const std::string& text);
   std::string download(const std::string& name);
   /// The state of a topic that is true now: never older than the replies that came before this call. Waits up
   /// to `timeout` seconds for it.

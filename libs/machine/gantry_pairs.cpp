@@ -2,6 +2,7 @@
 #include "machine/gantry_pairs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "machine/parameter_constants.hpp"
@@ -84,6 +85,15 @@ std::vector<GantryPair> gantry_pairs(const Parameters& parameters, std::uint16_t
     return std::find(numbers.begin(), numbers.end(), pair.master) == numbers.end();
   });
   return pairs;
+}
+
+AutoOffset auto_offset(const Parameters& p, const GantryPair& pair, double error) {
+  // Of an absolute encoder the position is kept and has no reference coordinate any longer.
+  const bool absolute = p.integer(parameter::homing_direction, pair.slave) == 0;
+  const auto& key = absolute ? parameter::gantry_zero_deviation : parameter::reference_coordinate;
+  AutoOffset offset{key.number(pair.slave), p.get(key, pair.slave), 0};
+  offset.proposal = std::round((offset.now + (absolute ? error : -error)) * 1e6) / 1e6;
+  return offset;
 }
 
 bool axis_moves_with(const Parameters& parameters, std::uint16_t axis, std::uint16_t channel) try {

@@ -60,6 +60,14 @@ std::vector<GantryPair> gantry_pairs(const Parameters& parameters);
 /// Those whose master is an axis of `channel`.
 std::vector<GantryPair> gantry_pairs(const Parameters& parameters, std::uint16_t channel);
 
+/// The parameter that makes the places where both sides are now belong together.
+struct AutoOffset {
+  std::uint32_t number = 0;
+  double now = 0, proposal = 0;  ///< mm
+};
+/// `error` mm: GantryPair::error() without what compensation accounts for.
+AutoOffset auto_offset(const Parameters& parameters, const GantryPair& pair, double error);
+
 /// Whether `axis` moves with `channel`: it is an axis of the channel, or the slave of one. False when the
 /// gantry parameters are not valid.
 bool axis_moves_with(const Parameters& parameters, std::uint16_t axis, std::uint16_t channel);

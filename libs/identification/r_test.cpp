@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "r_test.hpp"
+#include "identification/r_test.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion::cli {
+namespace trunnion::identification {
 namespace {
 
+using truth::Vec3;
 constexpr std::size_t highest_order = 200, most_readings = 2000;
 
 // Any direction across `axis`.
@@ -15,17 +16,17 @@ Vec3 across(const Vec3& axis) {
   return (other - axis * axis.dot(other)).normalized();
 }
 
-Vec3 tangent(const BallTest& test, const Vec3& place) {
-  Vec3 radial = place - test.centre();
-  radial -= test.direction() * test.direction().dot(radial);
-  return test.direction().cross(radial).normalized();
+Vec3 tangent(const TurnedBall& set, const Vec3& place) {
+  Vec3 radial = place - set.centre;
+  radial -= set.direction * set.direction.dot(radial);
+  return set.direction.cross(radial).normalized();
 }
 
-std::vector<Vec3> filtered(const BallTest& test, const BallTurn& turn, const std::vector<Vec3>& deviations,
+std::vector<Vec3> filtered(const TurnedBall& set, const BallTurn& turn, const std::vector<Vec3>& deviations,
                            double cutoff) {
   Vec3 mean = Vec3::Zero();
   for (const auto& d : deviations) mean += d / static_cast<double>(deviations.size());
-  const Vec3 first = across(test.direction()), second = test.direction().cross(first);
+  const Vec3 first = across(set.direction), second = set.direction.cross(first);
   circular_tests::RotatingErrorFilter::Settings settings;
   settings.interval = turn.interval, settings.speed = turn.speed, settings.cutoff = cutoff;
   settings.variance_x = std::pow(first.cwiseAbs().dot(turn.noise), 2) + 1e-18;
@@ -36,14 +37,14 @@ std::vector<Vec3> filtered(const BallTest& test, const BallTurn& turn, const std
   for (const auto& d : deviations) {
     const Vec3 about = d - mean;
     const auto [x, y] = filter.next(first.dot(about), second.dot(about));
-    out.push_back(mean + first * x + second * y + test.direction() * test.direction().dot(about));
+    out.push_back(mean + first * x + second * y + set.direction * set.direction.dot(about));
   }
   return out;
 }
 
 }  // namespace
 
-RTestResult evaluate_turn(const BallTest& test, const BallTurn& turn, const RTestSettings& settings) {
+RTestResult evaluate_turn(const TurnedBall& set, const BallTurn& turn, const RTestSettings& settings) {
   RTestResult r;
   std::vector<Vec3> without_servo;
   const double begin = turn.samples.front().turned;
@@ -52,30 +53,28 @@ RTestResult evaluate_turn(const BallTest& test, const BallTurn& turn, const RTes
     r.read.push_back(s.deviation);
     without_servo.push_back(s.deviation - s.following);
   }
-  r.cleaned = filtered(test, turn, without_servo, settings.cutoff);
-  if (std::abs(std::abs(test.sweep()) - 360) < 1e-6) {
+  r.cleaned = filtered(set, turn, without_servo, settings.cutoff);
+  if (std::abs(std::abs(set.sweep) - 360) < 1e-6) {
     std::vector<double> tangential;
     for (std::size_t i = 0; i < r.cleaned.size(); ++i)
-      tangential.push_back(tangent(test, turn.samples[i].place).dot(r.cleaned[i]));
+      tangential.push_back(tangent(set, turn.samples[i].place).dot(r.cleaned[i]));
     r.tangential = circular_tests::turn_harmonics(r.angles, tangential, highest_order);
     r.pitch = circular_tests::harmonic_peaks(r.tangential, settings.least_harmonic);
     for (std::size_t i = 0; i < r.cleaned.size(); ++i)
-      r.cleaned[i] -= tangent(test, turn.samples[i].place) * circular_tests::value_at(r.pitch, r.angles[i]);
+      r.cleaned[i] -= tangent(set, turn.samples[i].place) * circular_tests::value_at(r.pitch, r.angles[i]);
   }
-  std::vector<identification::BallDeviation> readings;
+  std::vector<BallDeviation> readings;
   const std::size_t step = r.cleaned.size() / most_readings + 1;
   for (std::size_t i = 0; i < r.cleaned.size(); i += step)
     readings.push_back({turn.samples[i].angles, r.cleaned[i]});
-  r.location = identification::locate_axis(test.machine().outline, test.model(), test.axis(), test.ball(),
-                                           test.tool_length(), readings);
+  r.location = locate_axis(set.machine, set.model, set.axis, set.ball, set.tool_length, readings);
   return r;
 }
 
-identification::AxisLocation locate_from_stops(const BallTest& test, const std::vector<BallSample>& stops) {
-  std::vector<identification::BallDeviation> readings;
+AxisLocation locate_from_stops(const TurnedBall& set, const std::vector<BallSample>& stops) {
+  std::vector<BallDeviation> readings;
   for (const auto& s : stops) readings.push_back({s.angles, s.deviation});
-  return identification::locate_axis(test.machine().outline, test.model(), test.axis(), test.ball(),
-                                     test.tool_length(), readings);
+  return locate_axis(set.machine, set.model, set.axis, set.ball, set.tool_length, readings);
 }
 
 Vec3 dynamic_less_static(const std::vector<double>& angles, const std::vector<Vec3>& dynamic,
@@ -95,11 +94,11 @@ Vec3 dynamic_less_static(const std::vector<double>& angles, const std::vector<Ve
   return ((squares - sum.cwiseAbs2() / n) / (n - 1)).cwiseMax(0).cwiseSqrt();
 }
 
-Vec3 ranges(const std::vector<Vec3>& deviations) {
+Vec3 span_of(const std::vector<Vec3>& deviations) {
   if (deviations.empty()) return Vec3::Zero();
   Vec3 low = deviations.front(), high = low;
   for (const auto& d : deviations) low = low.cwiseMin(d), high = high.cwiseMax(d);
   return high - low;
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::identification

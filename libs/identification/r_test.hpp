@@ -3,11 +3,13 @@
 // of the rotary axis; the difference from a static test. Pure.
 #pragma once
 
-#include "ball_motion.hpp"
+#include <vector>
+
 #include "circular_tests/ball_signal.hpp"
 #include "identification/axis_location.hpp"
+#include "identification/turned_ball.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::identification {
 
 struct RTestSettings {
   double cutoff = 20;            ///< Hz, of the filter
@@ -15,24 +17,24 @@ struct RTestSettings {
 };
 
 struct RTestResult {
-  std::vector<double> angles;  ///< deg of the axis since the start of the turn, by sample
-  std::vector<Vec3> read;      ///< mm: deviations as read
-  std::vector<Vec3> cleaned;   ///< mm: less the response of the servos, filtered, less the pitch error
+  std::vector<double> angles;        ///< deg of the axis since the start of the turn, by sample
+  std::vector<truth::Vec3> read;     ///< mm: deviations as read
+  std::vector<truth::Vec3> cleaned;  ///< mm: less the response of the servos, filtered, less the pitch error
   std::vector<circular_tests::TurnHarmonic> tangential;  ///< of a whole turn, mm
   std::vector<circular_tests::TurnHarmonic> pitch;       ///< the harmonics that were removed
-  identification::AxisLocation location;
+  AxisLocation location;
 };
 
-RTestResult evaluate_turn(const BallTest& test, const BallTurn& turn, const RTestSettings& settings);
+RTestResult evaluate_turn(const TurnedBall& set, const BallTurn& turn, const RTestSettings& settings);
 
 /// The same from stops: no servo, no filter.
-identification::AxisLocation locate_from_stops(const BallTest& test, const std::vector<BallSample>& stops);
+AxisLocation locate_from_stops(const TurnedBall& set, const std::vector<BallSample>& stops);
 
 /// Standard deviation of dynamic less static deviations at the angles of the stops, along X, Y, Z, mm.
-Vec3 dynamic_less_static(const std::vector<double>& angles, const std::vector<Vec3>& dynamic,
-                         const std::vector<BallSample>& stops);
+truth::Vec3 dynamic_less_static(const std::vector<double>& angles, const std::vector<truth::Vec3>& dynamic,
+                                const std::vector<BallSample>& stops);
 
 /// Largest less least along X, Y, Z, mm.
-Vec3 ranges(const std::vector<Vec3>& deviations);
+truth::Vec3 span_of(const std::vector<truth::Vec3>& deviations);
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::identification
