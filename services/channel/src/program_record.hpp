@@ -19,6 +19,7 @@ struct RunningProgram {
   std::uint64_t tool_since = 0;  ///< cycle from which on the drive's snapshot knows of it
   bool operator==(const RunningProgram&) const = default;
 
+  /// No fields, the channel's state has them already: ended, parts, tool, tool_since.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("name", self.name), visit("revision", self.revision), visit("crc", self.crc);

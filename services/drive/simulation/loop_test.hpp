@@ -73,6 +73,8 @@ class LoopTest {
   std::vector<double>& values() { return values_; }
   const std::vector<double>& values() const { return values_; }
 
+  /// No fields, start() sets them again: trial_, fallback_, signal_, amplitude_, first_, last_, h_,
+  /// period_, decimation_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("count", self.count_), visit("active", self.active_), visit("fallen_back", self.fallen_back_);
