@@ -5,7 +5,7 @@
 Such a class has `template <class Self, class Visit> static void fields(Self& self, Visit&& visit)`; one whose list is in
 a struct of its own (`template <class Core> struct Of` in it) names that struct as a friend. Every member is one of
 
-- visited whole: visit("name", self.member), visit("name", *self.member) or Type::fields(self.member, visit)
+- visited whole: visit("name", self.member) (or a number), visit("name", *self.member) or Type::fields(self.member, visit)
 - declared with a comment behind it that says `no field` or `no fields`
 - named by a comment `No fields, REASON: member, member.` of the class or of the list
 
@@ -129,7 +129,7 @@ def sources_of(groups):
 
 
 def visited_in(body, receiver):
-    return set(re.findall(r'(?:visit\("\w+",\s*\*?|::fields\()' + receiver + r"\.(\w+)[),]", body))
+    return set(re.findall(r'(?:visit\((?:"\w+"|\d+u),\s*\*?|::fields\()' + receiver + r"\.(\w+)[),]", body))
 
 
 def judge(place, members, visited, excused):
