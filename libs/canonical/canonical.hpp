@@ -78,7 +78,8 @@ struct ModalState {
   /// G43.4 or G43.5: the tool tip stays on the path while rotary axes move.
   bool tip_control() const { return transformation == Transformation::rtcp && !plane_only; }
 
-  /// Every field that a channel keeps from one line or process to the next.
+  /// Every field that a channel keeps from one line or process to the next. No field, an interpreter names
+  /// frames of its own: frame.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("motion", self.motion), visit("plane", self.plane), visit("absolute", self.absolute);

@@ -99,6 +99,12 @@ struct VariableStore {
   std::array<Value, 9> skip{};      ///< #5061..#5069, mm and degrees whatever the units of the program
   std::array<Value, 5000> user{};   ///< #50000..#54999
   bool operator==(const VariableStore&) const = default;
+
+  /// visit(number of the first, values) for every range.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit(50u, self.common), visit(500u, self.kept), visit(5061u, self.skip), visit(50000u, self.user);
+  }
 };
 
 inline constexpr std::uint32_t local_variables = 50;

@@ -123,6 +123,7 @@ class FrameWindow {
     return frames;
   }
   /// For libs/snapshot: batches that were taken are left out.
+  /// No field, `frames` are what counts of it: slots_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("epoch", self.epoch_), visit("newest_epoch", self.newest_epoch_);

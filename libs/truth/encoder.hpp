@@ -41,6 +41,7 @@ class Encoder {
   double mark_latch() const { return latches_[0]; }
   std::uint64_t marks() const { return marks_; }
 
+  /// No field, configure() sets it: truth_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("position", self.position_), visit("reading", self.reading_), visit("origin", self.origin_);
@@ -61,7 +62,7 @@ class Encoder {
   std::uint64_t marks_ = 0;          // passed since the start
   double reference_ = 0;
   bool referenced_ = false;
-  double free_from_ = 0, free_to_ = 0;  // a place without marks; follows from truth_, no state
+  double free_from_ = 0, free_to_ = 0;  // no fields: a place without marks, which follows from truth_
 };
 
 }  // namespace trunnion::truth

@@ -29,6 +29,7 @@ class Instrument {
     return truth_.resolution > 0 ? std::round(value / truth_.resolution) * truth_.resolution : value;
   }
 
+  /// No field, the constructor sets it: truth_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("random", self.random_);

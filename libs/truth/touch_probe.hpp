@@ -72,6 +72,7 @@ class TouchProbe {
   /// Switched off, the probe gives no signal.
   void switch_off() { open_ = waiting_ = signal_ = false; }
 
+  /// No fields, the constructor sets them: truth_, solids_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("random", self.random_), visit("noise", self.noise_), visit("ball", self.ball_);

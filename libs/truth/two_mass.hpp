@@ -31,6 +31,8 @@ class TwoMass {
   /// Torque of the motor that holds the weight, in the unit of step().
   double holding_torque() const { return mechanics_.gravity * rated_torque_; }
 
+  /// No fields, configure() sets them: mechanics_, motor_mass_, load_mass_, stiffness_, damping_,
+  /// rated_torque_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("motor", self.motor_), visit("load", self.load_);

@@ -38,6 +38,8 @@ class AuxiliaryHandshake {
 
   /// Nothing is open and everything has been taken: the state that fields() lists is whole.
   bool at_rest() const { return !open_ && !table_open_ && !outgoing_ && !outgoing_table_; }
+  /// No field, the constructor sets it: channel_. No fields, at rest nothing is open: open_, table_open_,
+  /// request_, outgoing_, outgoing_table_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("number", self.number_);

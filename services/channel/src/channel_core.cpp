@@ -89,15 +89,10 @@ void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
 }
 
 RunningProgram ChannelCore::running_program() const {
-  auto program = interrupted_;
+  auto left = interrupted_;
   if (program_under_way())
-    program = {selected_.name, selected_.revision, selected_.crc32,
-               std::max<std::uint32_t>(program_line(), 1)};
-  program.ended = ended_;
-  program.parts = parts_;
-  program.tool = tool_;
-  program.tool_since = tool_since_;
-  return program;
+    left = {selected_.name, selected_.revision, selected_.crc32, std::max<std::uint32_t>(program_line(), 1)};
+  return {left, ended_, parts_, tool_, tool_since_};
 }
 
 // What the program has read ahead counts: a variable is not restored when the motion behind it is stopped.

@@ -359,7 +359,7 @@ class ChannelCore {
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended
   std::uint32_t parts_ = 0;
-  RunningProgram interrupted_;  // by an emergency stop or the end of the control: its line is offered
+  LeftProgram interrupted_;  // by an emergency stop or the end of the control: its line is offered
   Mdi mdi_;
   AxisValues machine_start_{};  // of the path at rest, in machine coordinates
   PathProgress progress_;

@@ -11,6 +11,13 @@ constexpr const char* this_boot = "snapshot";  // common variables are kept, too
 
 /// The list of fields of a channel that is idle; all others are empty then or made when something starts.
 struct ChannelFields {
+  // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_,
+  // mdi_. No fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
+  // parameters_, next_parameters_, programs_, tool_table_, cycle_service_. No field, the state of the service
+  // has it: unreferenced_. No fields, nothing is under way: states_, homing_, mdi_flow_, jog_obstacle_,
+  // skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they are made
+  // again: program_path_, manual_path_, program_cache_, mdi_cache_, program_guard_, manual_guard_,
+  // guard_error_, unusable_, state_.
   template <class Core>
   struct Of {
     Core& core;
@@ -25,6 +32,11 @@ struct ChannelFields {
       visit("program_start", c.program_start_), visit("interrupted", c.interrupted_);
       visit("modal", c.mdi_.modal), visit("position", c.machine_start_), visit("progress", c.progress_);
       visit("tool", c.tool_), visit("spindle_programmed", c.spindle_programmed_);
+      visit("ended", c.ended_), visit("parts", c.parts_);
+      // Written where there is something: older recordings have no such state.
+      constexpr bool reads = !std::is_const_v<Core>;
+      if (reads || c.tool_since_ != 0) visit("tool_since", c.tool_since_);
+      if (reads || !c.before_temporary_.empty()) visit("before_temporary", c.before_temporary_);
     }
   };
 };
@@ -45,8 +57,6 @@ bus::Json ChannelCore::explicit_state(std::string& why_not) const {
   auto state = snapshot::written(ChannelFields::Of<const ChannelCore>{*this});
   state["offset_on"] = manual_.offset_on();
   state["offset"] = manual_.offset();
-  state["ended"] = ended_;
-  state["parts"] = parts_;
   state["skips"] = snapshot::written(program_flow_.skips());
   state["variables"] = write_variables(*variables_, this_boot);
   if (const auto* executed = stream_.executed()) state["executed"] = snapshot::written(*executed);
@@ -60,8 +70,6 @@ void ChannelCore::continue_from(const bus::Json& state) {
   snapshot::read(state.at("offset"), offset);
   std::vector<program_execution::SkipResult> skips;
   snapshot::read(state.at("skips"), skips);
-  ended_ = state.value("ended", std::uint64_t{0});
-  parts_ = state.value("parts", std::uint32_t{0});
   program_flow_.set_skips(std::move(skips));
   *variables_ = {};
   read_variables(state.at("variables").get<std::string>(), "snapshot", this_boot, *variables_);

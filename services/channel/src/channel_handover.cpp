@@ -12,13 +12,10 @@ std::optional<HandOver> ChannelCore::hand_over() const {
   state.program = selected_.name;
   state.program_revision = selected_.revision;
   state.modal = mdi_.modal;
+  state.before_temporary = before_temporary_;
   state.tool = tool_;
-  state.feed_override = switches_.feed_override;
-  state.rapid_override = switches_.rapid_override;
-  state.spindle_override = switches_.spindle_override;
+  state.switches = switches_;
   state.spindle_programmed = spindle_programmed_;
-  state.single_block = switches_.single_block;
-  state.optional_stop = switches_.optional_stop;
   state.reset_count = reset_count_;
   return state;
 }
@@ -26,13 +23,10 @@ std::optional<HandOver> ChannelCore::hand_over() const {
 void ChannelCore::take_over(const HandOver& from) {
   mode_ = from.mode;
   mdi_.modal = from.modal;
+  before_temporary_ = from.before_temporary;
   tool_ = from.tool;
-  switches_.feed_override = from.feed_override;
-  switches_.rapid_override = from.rapid_override;
-  switches_.spindle_override = from.spindle_override;
+  switches_ = from.switches;
   spindle_programmed_ = from.spindle_programmed;
-  switches_.single_block = from.single_block;
-  switches_.optional_stop = from.optional_stop;
   reset_count_ = from.reset_count;
   for (const auto& entry : programs_.programs)
     if (entry.name == from.program) selected_ = entry;

@@ -41,6 +41,8 @@ class CycleCall {
 
   /// Nothing is open and everything has been taken: the state that fields() lists is whole.
   bool at_rest() const { return !open_ && !outgoing_ && !called_; }
+  /// No fields, at rest nothing is open: open_, heard_, called_, answer_, outgoing_. No field, but for the
+  /// number a call sets it: request_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("number", self.request_.number);

@@ -8,19 +8,22 @@
 #include <stdexcept>
 #include <vector>
 
+#include "field_lines.hpp"
 #include "storage/crc32.hpp"
 
 namespace trunnion::channel {
 namespace {
 
-// The formats so far, each with lines more than the one before: the second has `ended`, the third `parts`,
-// the fourth `tool` and `tool_since`.
 constexpr const char* head = "trunnion program ";
-constexpr int newest_format = 4;
-constexpr std::array<std::size_t, newest_format> lines_of_format{6, 7, 8, 10};
+constexpr const char* newest = "trunnion program 5\n";
+
+// The formats before, with values in the order of their lines and a checksum of their own. Each has lines
+// more than the one before: the second has `ended`, the third `parts`, the fourth `tool` and `tool_since`.
+constexpr int former_formats = 4;
+constexpr std::array<std::size_t, former_formats> lines_of_format{6, 7, 8, 10};
 
 int format_of(const std::string& text) {
-  for (int format = 1; format <= newest_format; ++format)
+  for (int format = 1; format <= former_formats; ++format)
     if (text.starts_with(head + std::to_string(format) + "\n")) return format;
   return 0;
 }
@@ -35,18 +38,7 @@ Number number_of(const std::string& text, const std::string& file, int line) {
   return value;
 }
 
-}  // namespace
-
-std::string write_record(const RunningProgram& program) {
-  std::string text = head + std::to_string(newest_format);
-  for (const auto number : {program.revision, std::uint64_t{program.crc}, std::uint64_t{program.line}})
-    text += "\n" + std::to_string(number);
-  text += "\n" + program.name + "\n" + std::to_string(program.ended) + "\n" + std::to_string(program.parts) +
-          "\n" + std::to_string(program.tool) + "\n" + std::to_string(program.tool_since) + "\n";
-  return text + std::to_string(storage::crc32(text)) + "\n";
-}
-
-RunningProgram read_record(const std::string& text, const std::string& file) {
+RunningProgram read_former(const std::string& text, const std::string& file) {
   std::istringstream in(text);
   const int format = format_of(text);
   const std::size_t size = lines_of_format[static_cast<std::size_t>(std::max(format, 1)) - 1];
@@ -54,8 +46,7 @@ RunningProgram read_record(const std::string& text, const std::string& file) {
   for (std::size_t i = 0; i < size; ++i)
     if (!std::getline(in, lines[i]) || in.eof())
       throw std::runtime_error(file + ":" + std::to_string(i + 1) + ":1: the file ends here");
-  if (format == 0)
-    throw std::runtime_error(file + ":1:1: '" + head + std::to_string(newest_format) + "' expected");
+  if (format == 0) throw std::runtime_error(file + ":1:1: '" + head + "1' to '" + head + "5' expected");
   RunningProgram program;
   program.revision = number_of<std::uint64_t>(lines[1], file, 2);
   program.crc = number_of<std::uint32_t>(lines[2], file, 3);
@@ -70,10 +61,17 @@ RunningProgram read_record(const std::string& text, const std::string& file) {
   const auto last = static_cast<int>(size);
   const auto sum = number_of<std::uint32_t>(lines.back(), file, last);
   const auto summed = text.size() - std::min(text.size(), lines.back().size() + 1);
-  if (in.peek() != std::istringstream::traits_type::eof() || sum != storage::crc32(text.substr(0, summed)) ||
-      (format == newest_format && write_record(program) != text))
+  if (in.peek() != std::istringstream::traits_type::eof() || sum != storage::crc32(text.substr(0, summed)))
     throw std::runtime_error(file + ":" + std::to_string(last) + ":1: the check sum is wrong");
   return program;
+}
+
+}  // namespace
+
+std::string write_record(const RunningProgram& program) { return newest + write_lines(program); }
+
+RunningProgram read_record(const std::string& text, const std::string& file) {
+  return text.starts_with(newest) ? read_lines(text, file, RunningProgram{}) : read_former(text, file);
 }
 
 }  // namespace trunnion::channel

@@ -78,6 +78,7 @@ class StreamLink {
   /// Everything has been taken, and the channel owes nothing: the state that fields() lists is whole.
   bool at_rest() const { return state_ == LinkState::idle && !outgoing_ && !homing_; }
 
+  /// No field, the constructor sets it: channel_. No fields, at rest the link is idle: state_, outgoing_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("mode", self.mode_), visit("next", self.next_), visit("executed", self.executed_),

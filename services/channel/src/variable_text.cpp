@@ -10,7 +10,7 @@
 namespace trunnion::channel {
 namespace {
 
-constexpr std::uint32_t first_common = 50, first_kept = 500, first_skip = 5061, first_user = 50000;
+constexpr std::uint32_t first_kept = 500;  // those before it are common: forgotten at power-off
 
 template <class Range>
 void write(std::string& out, const Range& values, std::uint32_t first) {
@@ -25,25 +25,19 @@ void write(std::string& out, const Range& values, std::uint32_t first) {
 }
 
 language::Value* find(language::VariableStore& variables, std::uint32_t number) {
-  if (number >= first_common && number < first_common + variables.common.size())
-    return &variables.common[number - first_common];
-  if (number >= first_kept && number < first_kept + variables.kept.size())
-    return &variables.kept[number - first_kept];
-  if (number >= first_skip && number < first_skip + variables.skip.size())
-    return &variables.skip[number - first_skip];
-  if (number >= first_user && number < first_user + variables.user.size())
-    return &variables.user[number - first_user];
-  return nullptr;
+  language::Value* found = nullptr;
+  language::VariableStore::fields(variables, [&](std::uint32_t first, auto& values) {
+    if (number >= first && number < first + values.size()) found = &values[number - first];
+  });
+  return found;
 }
 
 }  // namespace
 
 std::string write_variables(const language::VariableStore& variables, const std::string& boot) {
   std::string out = "boot " + boot + "\n";
-  write(out, variables.common, first_common);
-  write(out, variables.kept, first_kept);
-  write(out, variables.skip, first_skip);
-  write(out, variables.user, first_user);
+  language::VariableStore::fields(
+      variables, [&](std::uint32_t first, const auto& values) { write(out, values, first); });
   return out;
 }
 

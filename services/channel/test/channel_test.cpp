@@ -431,6 +431,8 @@ TEST_F(Channel, HandsOverAtRestAndTheNextProcessHasTheSameStateAndProgram) {
   load("G90\nG1 X100 Y50 F6000\nM30\n");
   ask(CommandKind::FEED_OVERRIDE, "", 0.5);
   ask(CommandKind::SINGLE_BLOCK, "", 1);
+  ask(CommandKind::DRY_RUN, "", 1), ask(CommandKind::AUXILIARY_LOCK, "", 1),
+      ask(CommandKind::BLOCK_SKIP, "", 5);
   const auto before = core->state();
   const auto left = core->hand_over();
   ASSERT_TRUE(left);
@@ -447,7 +449,8 @@ TEST_F(Channel, HandsOverAtRestAndTheNextProcessHasTheSameStateAndProgram) {
   EXPECT_EQ(after.program, "part.nc");
   EXPECT_EQ(after.mode, before.mode);
   EXPECT_EQ(after.feed_override, 0.5);
-  EXPECT_TRUE(after.single_block);
+  EXPECT_TRUE(after.single_block && after.dry_run && after.auxiliary_lock);
+  EXPECT_EQ(after.block_skip, 5);
   EXPECT_EQ(after.work_offset, before.work_offset);
   EXPECT_EQ(after.reset_count, before.reset_count);
 

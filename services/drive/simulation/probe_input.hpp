@@ -45,6 +45,8 @@ class ProbeInput {
   /// The signal of the probe.
   bool on() const { return probe_.signal(); }
 
+  /// No fields, the constructor and configure() set them: geometry_, orientation_, lobes_, warms_,
+  /// columns_, slave_column_, slave_sign_, slave_zero_, length_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("probe", self.probe_), visit("warm_up", self.warm_up_), visit("switched_on", self.switched_on_);

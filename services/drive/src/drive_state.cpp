@@ -9,6 +9,11 @@ namespace trunnion::drive {
 
 /// The list of fields; limits, axes and other values that configure() takes from the parameters are none.
 struct DriveState {
+  // No fields, configure() sets them: dt_, virtual_time_, lead_, prefill_, revision_, axes_, limits_,
+  // spindle_axes_. No fields, the hardware has a state of its own and gives its status: hardware_, status_.
+  // No fields, every use sets them before: scratch_, before_. No fields, the service has taken them:
+  // resumed_, events_. No field, its slaves are one: slaves_. No field, a row of a simulation is in force in
+  // its own period: moved_.
   template <class Core>
   struct Of {
     Core& core;

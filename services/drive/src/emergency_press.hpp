@@ -24,6 +24,7 @@ class EmergencyPress {
   const idl::plc::Press& which() const { return held_; }
 
   /// For libs/snapshot.
+  /// No field, both of its members are fields: held_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("client", self.held_.client), visit("number", self.held_.number);

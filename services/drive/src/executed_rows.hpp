@@ -27,6 +27,7 @@ class ExecutedRows final : public EncoderRowSink {
   /// Moves the rows into `out` and forgets them; `next` is the cycle that is handed over next.
   void fill(idl::stream::FeedbackFrame& out, std::uint64_t next);
 
+  /// No field, every period has a row: in_force_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("pending", self.pending_);
@@ -55,8 +56,8 @@ class ExecutedRows final : public EncoderRowSink {
   void report_skip_edges(const Pending& executed);
 
   std::vector<Pending> pending_;
-  std::vector<double> pending_setpoints_;   // a row for each of pending_
-  std::uint64_t first_ = 0, in_force_ = 0;  // in_force_ is no field: every period has a row
+  std::vector<double> pending_setpoints_;  // a row for each of pending_
+  std::uint64_t first_ = 0, in_force_ = 0;
   std::uint32_t count_ = 0;
   std::vector<double> commanded_, actual_, spindle_angle_;
   // Edges that wait for the first cycle behind them; `cycle` is the number of a row. Those with their cycle.

@@ -23,6 +23,7 @@ struct GantrySlave {
   std::size_t master_column() const { return static_cast<std::size_t>(pair.master_column); }
   std::size_t column() const { return static_cast<std::size_t>(pair.slave_column); }
 
+  /// No fields, configure() sets them: pair, channel, place, places.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("offset", self.offset), visit("offset_known", self.offset_known);

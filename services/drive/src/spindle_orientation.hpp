@@ -30,6 +30,7 @@ class SpindleOrientation {
   /// It is held and within the window.
   bool oriented(const SpindleStatus& status) const;
 
+  /// No fields, configure() sets them: period_, reference_, window_, approach_speed_, speed_step_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("demanded", self.demanded_), visit("active", self.active_), visit("angle", self.angle_);

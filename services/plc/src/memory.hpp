@@ -62,7 +62,8 @@ using st::program_cells;
 struct ProgramVariables {
   struct Fault {
     std::uint32_t kind = 0;  ///< st::FaultKind
-    std::uint32_t task = 0, instruction = 0, reserved = 0;
+    std::uint32_t task = 0, instruction = 0;
+    std::uint32_t reserved = 0;  // no field
     std::int64_t value = 0, low = 0, high = 0;
     bool operator==(const Fault&) const = default;
 
@@ -100,7 +101,7 @@ struct Force {
   std::int32_t bit = -1;   ///< of a register
   std::uint64_t value = 0;
   std::uint32_t permanent = 0;  ///< 1: also after a new start of the cluster
-  std::uint32_t reserved = 0;
+  std::uint32_t reserved = 0;   // no field
   bool operator==(const Force&) const = default;
 
   template <class Self, class Visit>
@@ -113,7 +114,8 @@ struct Force {
 /// In the order in which they were made; one place is forced once.
 struct Forces {
   std::array<Force, most_forces> values{};
-  std::uint32_t count = 0, reserved = 0;
+  std::uint32_t count = 0;
+  std::uint32_t reserved = 0;  // no field
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -131,7 +133,9 @@ struct Memory {
   std::array<std::uint64_t, spindle_count>
       spindle_since{};  ///< PLC time in ms of the last change of the command
   Forces forces;
-  ProgramVariables program;  ///< the last member: files without programs end before it. Not in `fields`
+  /// The last member: files without programs end before it. No field, the service writes the cells that
+  /// are used: program.
+  ProgramVariables program;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
