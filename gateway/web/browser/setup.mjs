@@ -116,6 +116,25 @@ async function tools(page, url) {
   await fetch(`${url}api/tools/77`, { method: "DELETE" });
 }
 
+/** At an override of 0 a line does not come to its end: the channel is not at rest for as long as the test wants. */
+async function intoSpindle(page, url) {
+  const load = page.getByRole("button", { name: "Load T2 into spindle" });
+  await page.getByRole("button", { name: "Tool T2", exact: true }).click();
+  await post(url, "channels/0/override", { kind: "feed", value: 0 });
+  await eventually("a line is under way", async () => (await post(url, "channels/0/mdi", { line: "G91 G1 X1 F100" })).ok);
+  await knows(page, "the channel runs", ({ state }) => state === "RUNNING");
+  await told(page, /^Load T2 into spindle: the channel is not at rest \(RUNNING\)/, () => load.click(), { refused: true });
+  check("a tool is not loaded while the channel moves, and it is said why", (await channelState(url)).state === "RUNNING");
+  await post(url, "channels/0/reset");
+  await post(url, "channels/0/override", { kind: "feed", value: 1 });
+  await post(url, "channels/0/mode", { mode: "JOG" });
+  await knows(page, "the channel is at rest in another mode", ({ state, mode }) => state === "IDLE" && mode === "JOG");
+  await told(page, "T2 M6 is being executed", () => load.click(), { refused: false });
+  await eventually("the tool is changed", () => channelState(url), ({ state, tool }) => state === "IDLE" && tool === 2);
+  await eventually("it needs no second change", () => load.isDisabled());
+  check("a tool of the table is loaded into the spindle by its key", (await channelState(url)).mode === "MDI");
+}
+
 async function planes(page, url) {
   await page.getByRole("tab", { name: "Tilted planes" }).click();
   await page.getByRole("button", { name: /G68.1 Q3/ }).click();
@@ -151,6 +170,7 @@ export async function setup(browser, url) {
   await page.getByRole("navigation", { name: "Views" }).getByRole("button", { name: "Setup", exact: true }).click();
   await workOffsets(page, url);
   await tools(page, url);
+  await intoSpindle(page, url);
   await planes(page, url);
   check(`setup logs no errors ${page.complaints}`, page.complaints.length === 0);
   await page.context().close();

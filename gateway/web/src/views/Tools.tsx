@@ -5,7 +5,8 @@ import { useEffect } from "preact/hooks";
 import { type Answer, get, put, remove } from "../api";
 import type { Tool, ToolTable } from "../contract";
 import { millimetres, refusal } from "../format";
-import { channel, machine, tell } from "../state/store";
+import { channel, commandTo, machine, tell } from "../state/store";
+import { changeLine, mayChange } from "../state/tool_change";
 import { changedSince, remember } from "../state/undo";
 import { text } from "../text/texts";
 import { Cell, typedNumber } from "./Cell";
@@ -108,6 +109,17 @@ function NameCell({ tool }: { tool: Tool }) {
   );
 }
 
+/** Orders the change of the chosen channel's tool; what the channel or the gateway refuses is told with its reason. */
+async function load(tool: number): Promise<void> {
+  const one = channel.peek();
+  if (!one) return;
+  const t = text.peek();
+  const title = t.loadTool(tool);
+  if (!mayChange(one)) return tell(`${title}: ${t.notAtRest(one.suspended ? t.stateHELD : t[`state${one.state}`])}`, true);
+  if (one.mode !== "MDI" && !(await commandTo(one.channel, title, "mode", { mode: "MDI" }))) return;
+  if (await commandTo(one.channel, title, "mdi", { line: changeLine(tool) })) tell(t.loadOrdered(changeLine(tool)), false);
+}
+
 function Wear({ tool }: { tool: Tool }) {
   const deltas = useSignal({ length_wear: "", radius_wear: "" });
   const t = text.value;
@@ -120,8 +132,7 @@ function Wear({ tool }: { tool: Tool }) {
     deltas.value = { ...deltas.value, [field]: "" };
   };
   return (
-    <section class="side-form" aria-label={t.toolDetail(tool.number)}>
-      <div class="title"><h2>{t.toolDetail(tool.number)}</h2> <b>{tool.name}</b></div>
+    <>
       <dl>
         <dt>{t.activeLength}</dt><dd class="digits">{millimetres(tool.length + tool.length_wear)} mm</dd>
         <dt>{t.activeRadius}</dt><dd class="digits">{millimetres(tool.radius + tool.radius_wear)} mm</dd>
@@ -142,15 +153,29 @@ function Wear({ tool }: { tool: Tool }) {
           <button type="submit">{t.addTo(title)}</button>
         </form>
       ))}
-      <button
-        disabled={tool.number === channel.value?.tool}
-        onClick={() =>
-          ask(t.deleteToolQuestion(tool.number), t.deleteKey, () => {
-            void change(tool, undefined, t.toolDeleted(tool.number)).then((answer) => !answer.ok && tell(refusal(`T${tool.number}`, answer.reason), true));
-          })}
-      >
-        {t.deleteTool(tool.number)}
-      </button>
+    </>
+  );
+}
+
+/** The chosen tool: an operator loads it, a setter changes it. */
+function Detail({ tool }: { tool: Tool }) {
+  const t = text.value;
+  const { number } = tool;
+  const inSpindle = number === channel.value?.tool;
+  const erase = async () => {
+    const answer = await change(tool, undefined, t.toolDeleted(number));
+    if (!answer.ok) tell(refusal(`T${number}`, answer.reason), true);
+  };
+  return (
+    <section class="side-form" aria-label={t.toolDetail(number)}>
+      <div class="title"><h2>{t.toolDetail(number)}</h2> <b>{tool.name}</b></div>
+      <Guard needs="operator">
+        <button class="primary" data-test="load-tool" disabled={inSpindle} title={t.loadToolAbout} onClick={() => void load(number)}>{t.loadTool(number)}</button>
+      </Guard>
+      <Guard needs="setter">
+        <Wear tool={tool} />
+        <button disabled={inSpindle} onClick={() => ask(t.deleteToolQuestion(number), t.deleteKey, () => void erase())}>{t.deleteTool(number)}</button>
+      </Guard>
     </section>
   );
 }
@@ -195,7 +220,7 @@ export function Tools() {
           {table.value.tools.length === 0 && <p class="dim">{t.noTools}</p>}
         </div>
       </section>
-      {one ? <Guard needs="setter"><Wear key={one.number} tool={one} /></Guard> : <section class="side-form dim" aria-label={t.tools}>{t.chooseTool}</section>}
+      {one ? <Detail key={one.number} tool={one} /> : <section class="side-form dim" aria-label={t.tools}>{t.chooseTool}</section>}
     </>
   );
 }
