@@ -119,6 +119,8 @@ async function tools(page, url) {
 /** At an override of 0 a line does not come to its end: the channel is not at rest for as long as the test wants. */
 async function intoSpindle(page, url) {
   const load = page.getByRole("button", { name: "Load T2 into spindle" });
+  const place = () => page.locator("[data-test=place-2]").innerText();
+  await eventually("the place of T2 is that of the PLC's table", place, (shown) => /^\d+$/.test(shown));
   await page.getByRole("button", { name: "Tool T2", exact: true }).click();
   await post(url, "channels/0/override", { kind: "feed", value: 0 });
   await eventually("a line is under way", async () => (await post(url, "channels/0/mdi", { line: "G91 G1 X1 F100" })).ok);
@@ -132,6 +134,7 @@ async function intoSpindle(page, url) {
   await told(page, "T2 M6 is being executed", () => load.click(), { refused: false });
   await eventually("the tool is changed", () => channelState(url), ({ state, tool }) => state === "IDLE" && tool === 2);
   await eventually("it needs no second change", () => load.isDisabled());
+  await eventually("and the PLC has it there", place, (shown) => shown === "spindle");
   check("a tool of the table is loaded into the spindle by its key", (await channelState(url)).mode === "MDI");
 }
 

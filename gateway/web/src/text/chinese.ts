@@ -396,6 +396,8 @@ export const chinese: Texts = {
   loadToolAbout: "在 MDI 中执行 T 和 M6；各轴和刀库可能运动",
   loadOrdered: (line) => `正在执行 ${line}。`,
   notAtRest: (state) => `通道未静止（${state}）。请等待其结束或复位，然后换刀。`,
+  magazinePlace: "刀位",
+  spindlePlace: "主轴",
   activeLength: "含磨损长度",
   activeRadius: "含磨损半径",
   addTo: (what) => `加到${what}`,

@@ -408,6 +408,8 @@ export const english = {
   loadToolAbout: "Executes T and M6 in MDI; the axes and the magazine may move",
   loadOrdered: (line: string) => `${line} is being executed.`,
   notAtRest: (state: string) => `the channel is not at rest (${state}). Let it end, or reset it, then load the tool.`,
+  magazinePlace: "Place",
+  spindlePlace: "spindle",
   activeLength: "Length with wear",
   activeRadius: "Radius with wear",
   addTo: (what: string) => `Add to ${what}`,

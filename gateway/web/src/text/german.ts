@@ -396,6 +396,8 @@ export const german: Texts = {
   loadToolAbout: "Führt T und M6 in MDI aus; Achsen und Magazin können sich bewegen",
   loadOrdered: (line) => `${line} wird ausgeführt.`,
   notAtRest: (state) => `Der Kanal ist nicht in Ruhe (${state}). Das Ende abwarten oder Reset drücken, dann einwechseln.`,
+  magazinePlace: "Platz",
+  spindlePlace: "Spindel",
   activeLength: "Länge mit Verschleiß",
   activeRadius: "Radius mit Verschleiß",
   addTo: (what) => `Zu ${what} addieren`,

@@ -3,9 +3,11 @@
 import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Answer, get, put, remove } from "../api";
-import type { Tool, ToolTable } from "../contract";
+import type { Parameter, Tool, ToolTable } from "../contract";
 import { millimetres, refusal } from "../format";
-import { channel, commandTo, machine, tell } from "../state/store";
+import { PlcWatch } from "../plc/watch";
+import { placeOf, placesOf, tableOf, tableParameter } from "../state/magazine";
+import { channel, channelNumber, commandTo, machine, tell } from "../state/store";
 import { changeLine, mayChange } from "../state/tool_change";
 import { changedSince, remember } from "../state/undo";
 import { text } from "../text/texts";
@@ -44,6 +46,33 @@ async function change(before: Tool | undefined, after: Tool | undefined, what: s
   });
   await refresh();
   return answer;
+}
+
+const nothing: PlcWatch["values"]["value"] = new Map();
+
+/** Places of the chosen channel's magazine by T number, live; empty while the PLC does not give them. */
+function useMagazine(): ReadonlyMap<number, number> {
+  const number = channelNumber.value;
+  const hasPlc = machine.value.plc !== undefined;
+  const watch = useSignal<PlcWatch | null>(null);
+  useEffect(() => {
+    if (!hasPlc || number === null) return;
+    let wanted = true;
+    let opened: PlcWatch | undefined;
+    void get<Parameter>(`/api/parameters/${tableParameter(number)}`).then((answer) => {
+      const path = tableOf(number, answer.ok ? String(answer.body?.value ?? "") : "");
+      if (!wanted || path === "") return;
+      opened = new PlcWatch();
+      opened.set([path]);
+      watch.value = opened;
+    });
+    return () => {
+      wanted = false;
+      opened?.close();
+      watch.value = null;
+    };
+  }, [hasPlc, number]);
+  return placesOf(watch.value?.values.value ?? nothing);
 }
 
 type Field = "length" | "length_wear" | "radius" | "radius_wear";
@@ -183,7 +212,9 @@ function Detail({ tool }: { tool: Tool }) {
 export function Tools() {
   const revision = machine.value.revisions.tools;
   useEffect(() => void refresh(), [revision]);
+  const places = useMagazine();
   const t = text.value;
+  const place = (tool: number) => placeOf(tool, channel.value?.tool ?? 0, places);
   const fields: [Field, string][] = [["length", t.length], ["length_wear", t.lengthWear], ["radius", t.radius], ["radius_wear", t.radiusWear]];
   const one = table.value.tools.find((tool) => tool.number === chosen.value);
   return (
@@ -197,13 +228,14 @@ export function Tools() {
         <div class="scroll">
           <table>
             <thead>
-              <tr><th>T</th><th>{t.name}</th>{fields.map(([field, title]) => <th class="right" key={field}>{title}</th>)}</tr>
+              <tr><th>T</th><th>{t.name}</th><th>{t.magazinePlace}</th>{fields.map(([field, title]) => <th class="right" key={field}>{title}</th>)}</tr>
             </thead>
             <tbody>
               {table.value.tools.map((tool) => (
                 <tr key={tool.number} class={tool.number === channel.value?.tool ? "chosen" : ""}>
                   <td><button aria-pressed={tool.number === chosen.value} aria-label={t.toolDetail(tool.number)} onClick={() => (chosen.value = tool.number)}>T{tool.number}</button></td>
                   <td><NameCell tool={tool} /></td>
+                  <td data-test={`place-${tool.number}`}>{place(tool.number) === 0 ? t.spindlePlace : (place(tool.number) ?? "–")}</td>
                   {fields.map(([field, title]) => (
                     <td class="right" key={field}>
                       <Cell
