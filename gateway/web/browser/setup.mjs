@@ -96,6 +96,17 @@ async function tools(page, url) {
   await page.keyboard.press("Enter");
   await eventually("the name is stored", async () => (await tool(url, 77))?.name === "Drill 8");
   check("a tool is entered", (await tool(url, 77)).length === 80.5);
+  for (const [label, typed, field, stored] of [
+    ["T77 Type", "drill", "type", "drill"], ["T77 Life used", "12.5", "life_used", 12.5], ["T77 Life limit", "12", "life_limit", 12],
+  ]) {
+    await page.getByLabel(label, { exact: true }).click();
+    await page.getByLabel(label, { exact: true }).fill(typed);
+    await page.keyboard.press("Enter");
+    await eventually(`${label} is stored`, async () => (await tool(url, 77))?.[field] === stored);
+  }
+  await page.getByRole("combobox", { name: "Unit of life" }).selectOption("PIECES");
+  await eventually("the life is shown with its limit and unit", () => page.locator("[data-test=life-77]").innerText(), (shown) => shown === "12.5 / 12 pieces");
+  check("a tool has type and life, and one that is used up is marked", (await page.locator("[data-test=life-77] .warn").count()) === 1);
   await page.getByRole("textbox", { name: "add to Length wear" }).pressSequentially("-0.02", hand);
   await page.keyboard.press("Enter");
   await eventually("the wear is added", async () => (await tool(url, 77))?.length_wear === -0.02);

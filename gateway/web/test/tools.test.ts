@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import type { RunState } from "../src/contract";
+import type { LifeUnit, RunState } from "../src/contract";
 import { placeOf, placesOf, tableOf, tableParameter } from "../src/state/magazine";
 import { changeLine, mayChange } from "../src/state/tool_change";
+import { isUsedUp, lifeText } from "../src/state/tool_life";
+import { languages } from "../src/text/texts";
 
 test("a tool is changed by the line that an operator types", () => {
   expect(changeLine(12)).toBe("T12 M6");
@@ -32,4 +34,13 @@ test("a tool has the place that the PLC's table gives it", () => {
 
 test("without a table only the tool in the spindle has a place", () => {
   expect([3, 7].map((tool) => placeOf(tool, 7, placesOf(new Map())))).toEqual([undefined, 0]);
+});
+
+test("the life has its limit and unit, and a tool that has reached it is known", () => {
+  const life = (life_used: number, life_limit: number, life_unit: LifeUnit = "MINUTES") => ({ life_used, life_limit, life_unit });
+  expect(lifeText(life(0, 0), languages.en)).toBe("–");
+  expect(lifeText(life(12.54, 90), languages.en)).toBe("12.5 / 90 min");
+  expect(lifeText(life(7, 0, "PIECES"), languages.en)).toBe("7 pieces");
+  expect(lifeText(life(0, 200, "PIECES"), languages.de)).toBe("0 / 200 Stück");
+  expect([life(89.9, 90), life(90, 90), life(91, 90), life(5, 0), life(0, 0)].map(isUsedUp)).toEqual([false, true, true, false, false]);
 });
