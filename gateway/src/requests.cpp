@@ -17,8 +17,9 @@ using commands::whole;
 
 namespace {
 
-constexpr std::size_t name_bytes = 64;
+constexpr std::size_t name_bytes = 64, type_bytes = 32;
 constexpr std::int64_t most_values = 4096;
+constexpr double longest_life = 999999;  // minutes or pieces
 
 std::string who_of(const Json& body) {
   return body.contains("who") ? text(body["who"], "who", name_bytes) : "hmi";
@@ -27,6 +28,13 @@ std::string who_of(const Json& body) {
 std::uint64_t revision_of(const Json& body) {
   if (!body.contains("revision")) return 0;
   return static_cast<std::uint64_t>(whole(body["revision"], "revision", 0, 1LL << 53));
+}
+
+idl::parameters::LifeUnit life_unit_of(const Json& value) {
+  const auto name = text(value, "life_unit", 16);
+  if (name == "MINUTES") return idl::parameters::LifeUnit::MINUTES;
+  if (name == "PIECES") return idl::parameters::LifeUnit::PIECES;
+  throw BadRequest("life_unit", "life_unit must be MINUTES or PIECES");
 }
 
 }  // namespace
@@ -170,7 +178,8 @@ idl::parameters::ParameterRequest parameter_import(const Json& body) {
 }
 
 idl::parameters::ParameterRequest tool_request(std::uint32_t number_, const Json& body) {
-  only(body, {"length", "length_wear", "radius", "radius_wear", "name", "revision", "who"});
+  only(body, {"length", "length_wear", "radius", "radius_wear", "name", "type", "life_used", "life_limit",
+              "life_unit", "revision", "who"});
   idl::parameters::ParameterRequest request{};
   request.operation = idl::parameters::Operation::SET_TOOL;
   request.who = who_of(body);
@@ -183,6 +192,11 @@ idl::parameters::ParameterRequest tool_request(std::uint32_t number_, const Json
   tool.radius = field("radius");
   tool.radius_wear = field("radius_wear");
   tool.name = text(required(body, "name"), "name", name_bytes);
+  if (body.contains("type")) tool.type = text(body["type"], "type", type_bytes);
+  if (body.contains("life_used")) tool.life_used = number(body["life_used"], "life_used", 0, longest_life);
+  if (body.contains("life_limit"))
+    tool.life_limit = number(body["life_limit"], "life_limit", 0, longest_life);
+  if (body.contains("life_unit")) tool.life_unit = life_unit_of(body["life_unit"]);
   request.tools.push_back(tool);
   return request;
 }

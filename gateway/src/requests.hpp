@@ -40,7 +40,8 @@ idl::parameters::ParameterRequest parameter_request(std::uint32_t number, bool i
 /// has.
 idl::parameters::ParameterRequest parameter_import(const bus::Json& body);
 
-/// {"length", "length_wear", "radius", "radius_wear": mm, "name"}; the store checks the limits.
+/// {"length", "length_wear", "radius", "radius_wear": mm, "name"} and optionally {"type", "life_used",
+/// "life_limit", "life_unit": "MINUTES" or "PIECES"}; the store checks the limits.
 idl::parameters::ParameterRequest tool_request(std::uint32_t number, const bus::Json& body);
 /// `revision` as in the query; empty = any.
 idl::parameters::ParameterRequest tool_removal(std::uint32_t number, const std::string& revision);

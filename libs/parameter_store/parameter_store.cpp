@@ -35,7 +35,11 @@ nlohmann::json json_of(const idl::parameters::Tool& t) {
           {"length_wear", t.length_wear},
           {"radius", t.radius},
           {"radius_wear", t.radius_wear},
-          {"name", t.name}};
+          {"name", t.name},
+          {"type", t.type},
+          {"life_used", t.life_used},
+          {"life_limit", t.life_limit},
+          {"life_unit", t.life_unit == idl::parameters::LifeUnit::PIECES ? "pieces" : "minutes"}};
 }
 
 // `part` counts the lines of one change from 1: two changes by one user may have the same second.

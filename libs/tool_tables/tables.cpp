@@ -11,15 +11,23 @@
 namespace trunnion::tool_tables {
 namespace {
 
-constexpr double limit = 100000;  // mm or deg
+constexpr double limit = 100000;         // mm or deg
+constexpr double longest_life = 999999;  // minutes or pieces
 constexpr std::uint32_t largest_tool = 99999999;
+constexpr std::size_t name_bytes = 64, type_bytes = 32;
+constexpr const char *minutes = "minutes", *pieces = "pieces";
 using canonical::axis_letters;
 
-std::string check_value(const std::string& who, double value, double minimum) {
-  if (value >= minimum && value <= limit) return "";
+std::string check_value(const std::string& who, double value, double minimum, double maximum = limit) {
+  if (value >= minimum && value <= maximum) return "";
   std::ostringstream text;
-  text << who << ": " << value << " is outside " << minimum << " .. " << limit;
+  text << who << ": " << value << " is outside " << minimum << " .. " << maximum;
   return text.str();
+}
+
+std::string check_text(const std::string& who, const std::string& value, std::size_t most) {
+  if (value.size() > most) return who + ": longer than " + std::to_string(most) + " bytes";
+  return text::valid_utf8_prefix(value) != value.size() ? who + ": not UTF-8" : "";
 }
 
 template <class T>
@@ -56,12 +64,14 @@ std::string check_tool(const idl::parameters::Tool& tool) {
   const auto who = "tool " + std::to_string(tool.number);
   if (tool.number < 1 || tool.number > largest_tool)
     return who + ": the number is outside 1 .. " + std::to_string(largest_tool);
-  if (tool.name.size() > 64) return who + " (name): longer than 64 bytes";
-  if (text::valid_utf8_prefix(tool.name) != tool.name.size()) return who + " (name): not UTF-8";
-  for (const auto& error : {check_value(who + " (length)", tool.length, -limit),
+  for (const auto& error : {check_text(who + " (name)", tool.name, name_bytes),
+                            check_text(who + " (type)", tool.type, type_bytes),
+                            check_value(who + " (length)", tool.length, -limit),
                             check_value(who + " (length_wear)", tool.length_wear, -limit),
                             check_value(who + " (radius)", tool.radius, 0),
-                            check_value(who + " (radius_wear)", tool.radius_wear, -limit)})
+                            check_value(who + " (radius_wear)", tool.radius_wear, -limit),
+                            check_value(who + " (life_used)", tool.life_used, 0, longest_life),
+                            check_value(who + " (life_limit)", tool.life_limit, 0, longest_life)})
     if (!error.empty()) return error;
   return "";
 }
@@ -86,6 +96,18 @@ std::string check_offset(const idl::parameters::WorkOffset& offset) {
   return "";
 }
 
+namespace {
+
+idl::parameters::LifeUnit life_unit_of(const std::string& file, const YAML::Node& node,
+                                       const std::string& key) {
+  const auto name = value<std::string>(file, node, key);
+  if (name == minutes) return idl::parameters::LifeUnit::MINUTES;
+  if (name == pieces) return idl::parameters::LifeUnit::PIECES;
+  throw std::runtime_error(machine::at(file, node) + "'" + name + "' is not " + minutes + " or " + pieces);
+}
+
+}  // namespace
+
 Tools read_tools(const std::string& text, const std::string& file, std::uint64_t& revision) {
   Tools tools;
   for (const auto& node : list_of(text, file, "tools", revision)) {
@@ -105,6 +127,14 @@ Tools read_tools(const std::string& text, const std::string& file, std::uint64_t
         tool.radius_wear = value<double>(file, entry.second, key);
       else if (key == "name")
         tool.name = value<std::string>(file, entry.second, key);
+      else if (key == "type")
+        tool.type = value<std::string>(file, entry.second, key);
+      else if (key == "life_used")
+        tool.life_used = value<double>(file, entry.second, key);
+      else if (key == "life_limit")
+        tool.life_limit = value<double>(file, entry.second, key);
+      else if (key == "life_unit")
+        tool.life_unit = life_unit_of(file, entry.second, key);
       else
         throw std::runtime_error(machine::at(file, entry.first) + "unknown key '" + key + "'");
     }
@@ -121,10 +151,17 @@ std::string write_tools(const Tools& tools, std::uint64_t revision) {
   std::ostringstream out;
   out.precision(17);
   out << "revision: " << revision << "\ntools:\n";
-  for (const auto& [number, tool] : tools)
+  for (const auto& [number, tool] : tools) {
     out << "  - {number: " << number << ", length: " << tool.length << ", length_wear: " << tool.length_wear
         << ", radius: " << tool.radius << ", radius_wear: " << tool.radius_wear
-        << ", name: " << machine::scalar_text(tool.name) << "}\n";
+        << ", name: " << machine::scalar_text(tool.name);
+    // A version before 0.4 reads the table as long as these are not used.
+    if (!tool.type.empty()) out << ", type: " << machine::scalar_text(tool.type);
+    if (tool.life_used != 0) out << ", life_used: " << tool.life_used;
+    if (tool.life_limit != 0) out << ", life_limit: " << tool.life_limit;
+    if (tool.life_unit == idl::parameters::LifeUnit::PIECES) out << ", life_unit: " << pieces;
+    out << "}\n";
+  }
   return out.str();
 }
 

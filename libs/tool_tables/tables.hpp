@@ -24,8 +24,9 @@ std::string work_offset_code(std::uint8_t index);
 /// Empty, or one line that names channel, offset, axis and limits.
 std::string check_offset(const idl::parameters::WorkOffset& offset);
 
-/// `tools:` with a list of {number, length, radius, name, length_wear, radius_wear}, or that list alone.
-/// Throws std::runtime_error with file:line:column.
+/// `tools:` with a list of {number, length, radius, name, length_wear, radius_wear, type, life_used,
+/// life_limit, life_unit: minutes or pieces}, or that list alone. Fields may be missing. Throws
+/// std::runtime_error with file:line:column.
 Tools read_tools(const std::string& text, const std::string& file, std::uint64_t& revision);
 std::string write_tools(const Tools& tools, std::uint64_t revision);
 

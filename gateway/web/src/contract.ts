@@ -385,6 +385,8 @@ export interface Parameter {
   group: string;
 }
 
+export type LifeUnit = "MINUTES" | "PIECES";
+
 export interface Tool {
   number: number;
   /** mm, spindle face to tip */
@@ -396,6 +398,13 @@ export interface Tool {
   /** mm, added */
   radius_wear: number;
   name: string;
+  /** for display: end mill, drill */
+  type: string;
+  /** in life_unit, as it was entered: the control does not count it */
+  life_used: number;
+  /** in life_unit, 0 = not limited */
+  life_limit: number;
+  life_unit: LifeUnit;
 }
 
 export interface ToolTable {

@@ -9,7 +9,7 @@ import { languages } from "../src/text/texts";
 const same = new Set([
   "viewScene", "modeAUTO", "modeMDI", "modeJOG", "modeREF", "modeAuto", "modeMdi", "mdi", "plc", "classNc", "reset", "name",
   "virtualTime", "detail", "radius", "viewParameters", "parameters", "parameter", "programmed", "sceneSpeed", "valueIn", "axisUnit", "setup",
-  "plcTask",
+  "plcTask", "lifeMinutes",
 ]);
 
 test("every text is translated and none is empty", () => {

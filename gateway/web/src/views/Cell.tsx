@@ -18,6 +18,8 @@ export function typedNumber(typed: string): number | undefined {
 
 interface Props {
   value: number;
+  /** As it is shown while it is not edited; millimetres without it. */
+  shown?: (value: number) => string;
   label: string;
   store: (value: number) => Promise<Answer>;
 }
@@ -26,7 +28,7 @@ interface Props {
  * A number that is sent when it is entered, and comes back to what is stored when it is refused. While it is being
  * edited nothing else changes it, and nothing is sent when it is left as it was.
  */
-export function Cell({ value, label, store }: Props) {
+export function Cell({ value, shown = millimetres, label, store }: Props) {
   const draft = useSignal<string | null>(null);
   const commit = async () => {
     const typed = draft.value;
@@ -48,7 +50,7 @@ export function Cell({ value, label, store }: Props) {
       aria-label={label}
       disabled={lacking("setter") !== ""}
       title={lacking("setter") || undefined}
-      value={draft.value ?? millimetres(value)}
+      value={draft.value ?? shown(value)}
       inputMode="decimal"
       onFocus={(event) => {
         const input = event.currentTarget;
