@@ -71,7 +71,7 @@ class ProgramReaders : public channel::testing::Channel, public ::testing::WithP
     const std::string name = "part.nc:";
     for (const auto& event : events)
       if (event.text.starts_with(name))
-        return {event.number,
+        return {event.alarm->number,
                 static_cast<std::uint32_t>(std::strtoul(event.text.c_str() + name.size(), nullptr, 10))};
     return {};
   }

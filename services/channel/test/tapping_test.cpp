@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "channel_fixture.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -162,7 +163,7 @@ TEST_F(Tap, AMachineWithoutASpindleRefusesItBeforeTheToolIsInTheHole) {
   start("G90 G94 S400 G0 Z5\nG99 G84 X0 Y0 Z-10 R2 F500\nM30\n");
   run();
   ASSERT_FALSE(events.empty());
-  EXPECT_EQ(events.back().number, 1125u);
+  EXPECT_EQ(events.back().alarm, &alarm::tapping_spindle_missing);
   EXPECT_EQ(drive.rows.back()[2], 2);
 }
 
@@ -177,7 +178,7 @@ TEST_F(Tap, AfterTheStreamWasLostInTheThreadTheProgramCannotBeResumed) {
   ask(CommandKind::CYCLE_START);
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
-  EXPECT_EQ(events.back().number, 1119u);
+  EXPECT_EQ(events.back().alarm, &alarm::not_resumable);
   EXPECT_EQ(drive.rows.size(), moved) << "nothing moved again";
 }
 
