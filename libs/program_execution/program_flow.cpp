@@ -47,7 +47,7 @@ void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, c
   skips_read_ = 0;
   lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   place_ = position;
-  tapping_ = in_hole_ = refused_ = text_missing_ = false;
+  tapping_ = in_hole_ = text_missing_ = false;
   executing_ = initial;
   frames_.clear();
   modals_.clear();
@@ -147,15 +147,11 @@ FlowState ProgramFlow::push_pending() {
     if (guard_ != nullptr) guard_->begin_call();
     state = push_move();
   }
-  refused_ = state == FlowState::alarm;
   motion_->finish();
   return state;
 }
 
-void ProgramFlow::refuse_pending(language::AlarmNumber number) {
-  fail(number);
-  refused_ = true;
-}
+void ProgramFlow::refuse_pending(language::AlarmNumber number) { fail(number); }
 
 FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text) {
   return fail(definition_of(number), place(command_.program, command_.line) + ": " + std::string(text));
@@ -248,7 +244,7 @@ void ProgramFlow::note_motion() {
 
 FlowState ProgramFlow::fill(bool single_block) {
   text_missing_ = false;
-  if (refused_) return FlowState::alarm;
+  if (alarm_ != nullptr) return FlowState::alarm;
   if (guard_ != nullptr) guard_->begin_call();
   // A long search for the restart point must leave time for messages.
   constexpr int most_commands = 4096;

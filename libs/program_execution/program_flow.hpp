@@ -29,7 +29,7 @@ enum class FlowState {
   loop,       ///< lines_of_loop and more lines without a motion: at rest read_on() continues with them
   found,      ///< the line to start from comes next: executing() and position() are the state it begins in
   end,        ///< program finished
-  alarm,      ///< alarm(), alarm_text()
+  alarm,      ///< alarm(), alarm_text(); until the next start()
 };
 
 /// The point of a program from which a restart continues.
@@ -101,7 +101,7 @@ class ProgramFlow {
 
   /// Gives the pending move to motion as the last one before a stop. FlowState::alarm, or full.
   FlowState push_pending();
-  /// The pending command cannot be carried out: fill() gives FlowState::alarm from now on.
+  /// The pending command cannot be carried out: FlowState::alarm.
   void refuse_pending(language::AlarmNumber number);
   /// Rigid tapping has started or ended: strokes and the dwells between them are moves meanwhile.
   void set_tapping(bool tapping) { tapping_ = tapping; }
@@ -192,7 +192,7 @@ class ProgramFlow {
   std::uint32_t block_line_ = 0;
   Entry entry_;
   Search search_ = Search::none;
-  bool tapping_ = false, in_hole_ = false, refused_ = false, text_missing_ = false;
+  bool tapping_ = false, in_hole_ = false, text_missing_ = false;
   std::uint64_t lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   AxisValues place_{};  // where the newest motion ends
   std::vector<SkipResult> skips_;

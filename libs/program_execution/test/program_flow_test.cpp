@@ -371,6 +371,19 @@ TEST_F(Flow, ATapIsAMoveOnlyWhileTappingAndCannotBeRestartedInTheThread) {
   EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::not_resumable));
 }
 
+// Whoever ends the tapping does not begin it again with the same stroke.
+TEST_F(Flow, AnAlarmOfAStrokeLastsWhenTheTappingHasEnded) {
+  start("G90 G94 S400 M3\nG0 Z5\nG99 G84 X0 Y0 Z-410 R2 F500\nG80\n");
+  for (int i = 0; i < 5 && run() == FlowState::command && flow.pending().kind != CommandKind::tap; ++i)
+    flow.finish_pending();
+  ASSERT_EQ(flow.pending().kind, CommandKind::tap);
+  flow.set_tapping(true);
+  EXPECT_EQ(run(), FlowState::alarm);
+  flow.set_tapping(false);
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(&flow.alarm(), &alarm::travel_limit);
+}
+
 TEST_F(Flow, ADryRunReplacesFeedsFromTheNextStartOn) {
   flow.set_dry_run_feed(2000);
   start("G90 F100\nG1 X1\nG93 X2 F0.5\n");

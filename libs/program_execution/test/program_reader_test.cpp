@@ -14,7 +14,6 @@ namespace {
 /// X Y Z of 400 mm to either side, without a spindle.
 struct Reading : ::testing::Test {
   Reading() : machine(0) {
-    machine::Parameters parameters;
     for (std::uint32_t a = 0; a < 3; ++a) {
       parameters.values[40001 + a] = {static_cast<double>(a), ""};
       parameters.values[100000 + a * 1000] = {0, std::string(1, "XYZ"[a])};
@@ -44,6 +43,7 @@ struct Reading : ::testing::Test {
   }
   std::uint32_t alarm() const { return static_cast<std::uint32_t>(reader->alarm().number); }
 
+  machine::Parameters parameters;
   channel_setup::ChannelSetup machine;
   std::unique_ptr<ProgramReader> reader;
   std::function<bool()> stop;
@@ -89,6 +89,17 @@ TEST_F(Reading, StrokesOfATapAreMovesOfTheProgram) {
     EXPECT_NEAR(moves[i].modal.feed, 500, 1e-9);
   }
   EXPECT_EQ(strokes, 2u) << "into the hole and out of it";
+}
+
+TEST_F(Reading, AStrokeOutOfTheTravelEndsTheReading) {
+  parameters.values[105000] = {0, "S"}, parameters.values[105001] = {10, ""};
+  parameters.values[105036] = {12000, ""};
+  machine.configure(parameters);
+  int asked = 0;
+  stop = [&] { return ++asked > 1000; };
+  EXPECT_EQ(read("G90 S400 M3\nG0 Z5\nG99 G84 X0 Y0 Z-410 R2 F500\nG80\nM30\n"), Ending::alarm);
+  EXPECT_EQ(alarm(), 140u);
+  EXPECT_EQ(reader->alarm().line, 3u);
 }
 
 TEST_F(Reading, ACycleOfAnotherServiceHasNoParts) {

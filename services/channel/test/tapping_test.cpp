@@ -167,6 +167,15 @@ TEST_F(Tap, AMachineWithoutASpindleRefusesItBeforeTheToolIsInTheHole) {
   EXPECT_EQ(drive.rows.back()[2], 2);
 }
 
+TEST_F(Tap, AHoleBeyondTheTravelEndsTheProgramAboveIt) {
+  start("G90 G94 S400 G0 Z5\nG99 G84 X0 Y0 Z-410 R2 F500\nM30\n");
+  run(100);
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().alarm, &alarm::travel_limit);
+  EXPECT_EQ(drive.rows.back()[2], 2);
+}
+
 TEST_F(Tap, AfterTheStreamWasLostInTheThreadTheProgramCannotBeResumed) {
   cycles_per_round = 8;
   start(hole);
