@@ -38,8 +38,6 @@ class MotionTracker {
   /// The motion a command makes, if it makes one; to be asked right after the interpreter gave it.
   std::optional<Motion> follow(const language::Command& command);
   const language::AxisValues& machine() const { return machine_; }
-  /// Where the last motion ended, in the frame of its command.
-  const language::AxisValues& target() const { return target_; }
 
  private:
   language::AxisValues to_machine(const language::Command& command, const language::AxisValues& point) const;
