@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# help_texts.sh TRUNNION PYTHON MANUAL_PAGE: the help shows every command in one of five groups; completion and manual page name
-# the same commands.
+# help_texts.sh TRUNNION PYTHON MANUAL_PAGE: the help shows every command in one of five groups; completion and manual
+# page name the same commands.
 set -euo pipefail
 trunnion=$1 python=$2 manual_page=$3
 work=$(mktemp -d)

@@ -14,11 +14,13 @@ def escape(text): return re.sub(r"^([.'])", r"\\&\1", text.replace("\\", "\\e").
 
 
 def subcommands(text):
-    """Names under the groups of commands of CLI11's help, which indents them by two blanks."""
-    heading, names = "Options", []
+    """Names under the groups of commands of CLI11's help, which indents them by two blanks. A heading follows an empty line;
+    one within a footer, as of the help of channel, does not."""
+    names, commands, empty = [], False, False
     for line in text.splitlines():
-        if line and not line[0].isspace() and line.endswith(":"): heading = line[:-1]
-        elif heading not in ("Options", "Positionals") and (name := re.match(r"  (\S+)", line)): names.append(name[1])
+        if line and not line[0].isspace(): commands = empty and line.endswith(":") and line not in ("Options:", "Positionals:")
+        elif commands and (name := re.match(r"  (\S+)", line)): names.append(name[1])
+        empty = not line
     return names
 
 

@@ -96,13 +96,18 @@ async function tools(page, url) {
   await page.keyboard.press("Enter");
   await eventually("the name is stored", async () => (await tool(url, 77))?.name === "Drill 8");
   check("a tool is entered", (await tool(url, 77)).length === 80.5);
-  for (const [label, typed, field, stored] of [
-    ["T77 Type", "drill", "type", "drill"], ["T77 Life used", "12.5", "life_used", 12.5], ["T77 Life limit", "12", "life_limit", 12],
+  const row = page.locator("tr", { has: page.locator("[data-test=life-77]") });
+  for (const [label, typed, field, stored, shown] of [
+    ["T77 Type", "drill", "type", "drill", "drill"],
+    ["T77 Life used", "12.5", "life_used", 12.5, "12.5 min"],
+    ["T77 Life limit", "12", "life_limit", 12, "12.5 / 12 min"],
   ]) {
     await page.getByLabel(label, { exact: true }).click();
     await page.getByLabel(label, { exact: true }).fill(typed);
     await page.keyboard.press("Enter");
     await eventually(`${label} is stored`, async () => (await tool(url, 77))?.[field] === stored);
+    // The next change is one of the table that the page has: it must know this one.
+    await eventually(`${label} is shown`, () => row.innerText(), (text) => text.includes(shown));
   }
   await page.getByRole("combobox", { name: "Unit of life" }).selectOption("PIECES");
   await eventually("the life is shown with its limit and unit", () => page.locator("[data-test=life-77]").innerText(), (shown) => shown === "12.5 / 12 pieces");
