@@ -174,7 +174,8 @@ class FileList : public InstructionList {
     if (op == "CTR") return reset_counter(operands, first.at);
     if (const auto block = numbered_blocks.find(op); block != numbered_blocks.end())
       return call_numbered(first, block->second, operands);
-    if (op == "LD" || op == "LDN") {
+    const bool loads = op == "LD" || op == "LDN";
+    if (loads) {
       is_word_ = is_word(operands);
     } else if (is_call(op, first, operands)) {
       if (!current_.empty()) keep(first.at);
@@ -183,6 +184,8 @@ class FileList : public InstructionList {
     line.resize(1);
     append(line, std::move(operands));
     InstructionList::instruction(std::move(line));
+    // A value that no instruction uses is checked too.
+    if (loads && !current_.empty()) keep(first.at);
   }
 
   void open(const std::string& op, bool inverts, Tokens line, Position at) override {
