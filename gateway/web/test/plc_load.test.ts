@@ -5,7 +5,7 @@ import { isSource, messageOf, stateOf, withFile } from "../src/plc/load";
 import { type State, token } from "../src/plc/structured_text";
 
 test("sources are those that the PLC takes", () => {
-  expect(["main.st", "a.xml", "fast.il", "devices.yaml", "messages.yaml", "modbus.yaml"].every(isSource)).toBe(true);
+  expect(["main.st", "a.xml", "a.exp", "A.EXP", "fast.il", "devices.yaml", "messages.yaml", "modbus.yaml"].every(isSource)).toBe(true);
   expect(["logic_test.st", "other.il", "machine.yaml", "main.st.orig"].some(isSource)).toBe(false);
 });
 
