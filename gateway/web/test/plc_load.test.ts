@@ -46,6 +46,7 @@ test("Structured Text has its colours, also in comments over several lines", () 
     ["/*", "comment"], [" d /*", "comment"], [" e */", "comment"], [" f */", "comment"], ["IF", "keyword"],
   ]);
   expect(kinds(["s := 'it$'s'; d := T#1h30m;"])).toEqual([[":=", "operator"], ["'it$'s'", "string"], [":=", "operator"], ["T#1h30m", "number"]]);
+  expect(kinds(["METHOD a", "p ?= d; p := NULL;"])).toEqual([["METHOD", "keyword"], ["?=", "operator"], [":=", "operator"], ["NULL", "keyword"]]);
 });
 
 test("an instruction is one where a line of a list begins with it", () => {
