@@ -3,6 +3,7 @@
 import { StreamLanguage, type StringStream, syntaxHighlighting } from "@codemirror/language";
 import type { Extension } from "@codemirror/state";
 import { tagHighlighter, tags } from "@lezer/highlight";
+import { isText } from "./source";
 
 const words = (text: string) => new Set(text.split(/\s+/));
 
@@ -78,7 +79,7 @@ const colours = syntaxHighlighting(
 /** For a file of this name; nothing for XML and YAML. */
 export function languageOf(name: string): Extension {
   const list = name.endsWith(".il");
-  if (!list && !name.endsWith(".st")) return [];
+  if (!list && !isText(name)) return [];
   return [
     StreamLanguage.define<State>({
       startState: () => ({ comment: "" }),
