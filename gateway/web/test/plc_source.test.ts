@@ -28,6 +28,29 @@ test("names of a line are found without comments and strings", () => {
   expect(lines.map(({ text }) => text).join("\n")).toBe(source);
 });
 
+test("a block with methods, and a class, have their own variables alone", () => {
+  const text = `FUNCTION_BLOCK FINAL Pump EXTENDS Device
+VAR n : INT; END_VAR
+METHOD start VAR_INPUT speed : INT; END_VAR
+n := speed;
+END_METHOD
+n := n + 1;
+END_FUNCTION_BLOCK
+CLASS Clock
+VAR t : INT; END_VAR
+METHOD PUBLIC tick t := t + 1; END_METHOD
+END_CLASS
+class := 1;
+`;
+  const lines = sourceLines(text);
+  expect(lines[3]).toMatchObject({ unit: "Pump", kind: "FUNCTION_BLOCK", names: ["n", "speed"] });
+  expect(lines[5]).toMatchObject({ unit: "Pump", kind: "FUNCTION_BLOCK", names: ["n"] });
+  expect(lines[9]).toMatchObject({ unit: "Clock", kind: "FUNCTION_BLOCK" });
+  expect(lines[11]!.unit).toBe("");
+  expect(declared(text, "Pump")).toEqual(["n"]);
+  expect(declared(text, "Clock")).toEqual(["t"]);
+});
+
 test("a comment begins in no string, also of wide characters", () => {
   const lines = sourceLines(`a := "(*"; b := 'x /*';\nc := "it$"s // d"; e := 1;`);
   expect(lines.map(({ names }) => names)).toEqual([["a", "b"], ["c", "e"]]);
@@ -53,8 +76,9 @@ test("inputs are those that sources and devices name", () => {
   const text = "PROGRAM main VAR closed AT %X16.0 : BOOL; END_VAR x := %IX2.7 OR %Y1.0; (* %X9.9 %X9.0 *)";
   const everywhere = ["emergency_stop_button", "reset_button", "feed_hold_button"].map((name, bit) => ({ address: `%X0.${bit}`, name }));
   const yaml = "door:\n  actuator: {extended: X17.0, retract: Y17.1} # X20.1\n";
-  expect(inputBits([{ name: "main.st", text }, { name: "devices.yaml", text: yaml }, { name: "modbus.yaml", text: "X1.1" }])).toEqual([
+  expect(inputBits([{ name: "main.st", text }, { name: "devices.yaml", text: yaml }, { name: "a.exp", text: "y := %X18.3;" }, { name: "modbus.yaml", text: "X1.1" }])).toEqual([
     ...everywhere, { address: "%X2.7", name: "" }, { address: "%X4.5", name: "probe_contact" }, { address: "%X16.0", name: "closed" }, { address: "%X17.0", name: "" },
+    { address: "%X18.3", name: "" },
   ]);
   expect([...devices(["simulation.door.position", "simulation.door.extend", "main.n"])]).toEqual([["door", ["simulation.door.position", "simulation.door.extend"]]]);
 });

@@ -169,7 +169,7 @@ Fault Machine::execute(std::size_t entry, std::int64_t now, std::int64_t budget,
       case Op::copy_block: {
         const auto to = m[in.a], from = m[in.b], count = static_cast<std::uint64_t>(in.c);
         left -= in.c / 16;
-        if (to <= size - count && from <= size - count)
+        if (count <= size && to <= size - count && from <= size - count)
           std::memmove(memory + to, memory + from, count * sizeof(std::uint64_t));
         else
           stop(FaultKind::reference);

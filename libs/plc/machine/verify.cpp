@@ -118,7 +118,7 @@ class Verifier {
       case Op::math_f:
         return in.n < static_cast<unsigned>(MathFunction::count);
       case Op::copy_block:
-        return in.c >= 0 && static_cast<std::uint32_t>(in.c) <= code_.initial.size();
+        return in.c >= 0 && static_cast<std::uint32_t>(in.c) <= most_cells;
       case Op::load_at:
       case Op::save_at:
         return in.c >= 0;

@@ -90,6 +90,7 @@ class Lowering {
   Place self() const;
   /// The variable of the unit, in a method also of the instance; nullptr when there is none.
   Variable* own_variable(const Expression& name) const;
+  bool is_inherited(const Variable& variable) const;
   std::string hidden(const Variable& variable) const;
   std::string scope_problem(const Expression& name) const;
 

@@ -5,13 +5,9 @@
 
 #include "plc/machine/arithmetic.hpp"
 #include "plc/semantics/lowering.hpp"
+#include "plc/semantics/time_literal.hpp"
 
 namespace trunnion::st {
-namespace {
-
-constexpr std::int64_t millisecond = 1000000;
-
-}  // namespace
 
 /// Outside of exports, and of what is no integer and no bit string, the value. Up to 16 bits are computed
 /// in 32.

@@ -6,11 +6,10 @@
 #include "plc/library/functions.hpp"
 #include "plc/machine/arithmetic.hpp"
 #include "plc/semantics/lowering.hpp"
+#include "plc/semantics/time_literal.hpp"
 
 namespace trunnion::st {
 namespace {
-
-constexpr std::int64_t millisecond = 1000000;
 
 bool whole(Kind kind) { return is_integer(kind) || is_bits(kind) || kind == Kind::enumeration; }
 bool timed(Kind kind) { return is_duration(kind) || is_date(kind); }

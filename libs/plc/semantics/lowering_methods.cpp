@@ -31,7 +31,15 @@ Variable* Lowering::own_variable(const Expression& name) const {
   const auto* block = instance();
   if (block == nullptr) return nullptr;
   const auto found = block->names.find(name.name);
-  return found == block->names.end() ? nullptr : found->second;
+  return found != block->names.end() && is_inherited(*found->second) ? found->second : nullptr;
+}
+
+/// Whether the block that declares this body or method has the variable. Those of a block that extends it are
+/// in the instance too, but its code means others by their names.
+bool Lowering::is_inherited(const Variable& variable) const {
+  const auto* block = declaring();
+  while (block != nullptr && block != variable.declared_in) block = block->parent;
+  return block != nullptr;
 }
 
 /// Why the method must not use the variable of its block, or nothing.
@@ -58,8 +66,8 @@ std::string Lowering::scope_problem(const Expression& name) const {
   return "SUPER is for methods, and '" + parent.text + "' has no method '" + name.text + "'";
 }
 
-/// A method of the running instance. A PRIVATE one of the block whose code this is comes first: others cannot
-/// override it.
+/// A method of the running instance that the block whose code this is has too. A PRIVATE one of this block
+/// comes first: others cannot override it.
 MethodDeclaration Lowering::own_method(const Expression& callee) const {
   const auto* parent = declaring()->parent;
   if (callee.scope == NameScope::base && parent == nullptr) return {};
@@ -67,7 +75,7 @@ MethodDeclaration Lowering::own_method(const Expression& callee) const {
   if (callee.scope == NameScope::base) return Unit::find_method(*parent, callee.name);
   const auto own = Unit::find_method(*declaring(), callee.name);
   const bool is_private = own.declared_in == declaring() && own.declaration->access == Access::private_;
-  return is_private ? own : Unit::find_method(*instance(), callee.name);
+  return own.declaration == nullptr || is_private ? own : Unit::find_method(*instance(), callee.name);
 }
 
 std::optional<Lowering::MethodCall> Lowering::called_method(const Expression& callee) const {
@@ -113,6 +121,11 @@ Value Lowering::call_method(const MethodCall& called, const Expression& e) {
     return failed(at, "the method '" + declaration.text + "' of '" +
                           called.method.declared_in->declaration->text + "' is " +
                           (declaration.access == Access::private_ ? "PRIVATE" : "PROTECTED"));
+  // A reference may name an instance of the block that contains this one.
+  if (!called.instance->is_declared)
+    return failed(at, "'" + called.instance->declaration->text + "' contains '" +
+                          (pou_ == nullptr ? std::string() : title_of(*pou_)) +
+                          "', which therefore cannot call its method '" + declaration.text + "'");
   auto place = called.of == nullptr ? self() : Place{};
   if (called.of != nullptr) {
     const auto instance = target(*called.of);

@@ -10,6 +10,8 @@
 
 namespace trunnion::st {
 
+inline constexpr std::int64_t millisecond = 1000000;  ///< ns
+
 /// 1d2h3m4.5s, 1h30m, 100ms, 5us, 20ns, with an optional minus and underscores. Without a result `problem`
 /// says why.
 std::optional<std::int64_t> parse_duration(std::string_view text, std::string& problem);

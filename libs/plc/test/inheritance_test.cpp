@@ -43,6 +43,25 @@ TEST(Inheritance, TakesVariablesMethodsAndTheBody) {
   EXPECT_EQ(program.get("e.z"), "2");    // RETURN leaves the body of Base, not that of Derived
 }
 
+// The code of Base means the global `limit` and the function raised() also in an instance of Derived, which
+// has both names for its own: 3 + 1 = 4, and 40. In Derived they are its own: 5 + 100 = 105.
+TEST(Inheritance, LeavesTheNamesInTheExtendedBlockWhatTheyAre) {
+  Translated program("VAR d : Derived; m : INT; END_VAR", "d(); m := d.read();",
+                     "VAR_GLOBAL limit : INT := 3; END_VAR\n"
+                     "FUNCTION raised : INT VAR_INPUT v : INT; END_VAR raised := v + 1; END_FUNCTION\n"
+                     "FUNCTION_BLOCK Base VAR_OUTPUT y : INT; END_VAR\n"
+                     "METHOD read : INT read := raised(limit); END_METHOD\n"
+                     "y := raised(limit) * 10; END_FUNCTION_BLOCK\n"
+                     "FUNCTION_BLOCK Derived EXTENDS Base VAR_OUTPUT own : INT; END_VAR\n"
+                     "VAR limit : INT := 100; END_VAR\n"
+                     "METHOD raised : INT VAR_INPUT v : INT; END_VAR raised := v + limit; END_METHOD\n"
+                     "SUPER(); own := raised(5); END_FUNCTION_BLOCK\n");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("m"), "4");
+  EXPECT_EQ(program.get("d.y"), "40");
+  EXPECT_EQ(program.get("d.own"), "105");
+}
+
 TEST(Inheritance, GoesOverSeveralBlocksWithSuperAtEach) {
   Translated program(
       "VAR c : C3; r : STRING; END_VAR", "r := c.name();",

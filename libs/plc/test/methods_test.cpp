@@ -186,6 +186,12 @@ TEST(Methods, OfBlocksWithoutAnInstanceMayBeLargerThanTheMemory) {
                      "a[0] := m(); END_FUNCTION_BLOCK\n");
   EXPECT_EQ(verify(*program.compilation.code), "");
   EXPECT_EQ(program.scan(), "");
+  // The memory has the 11840 cells of the registers and few others; nothing executes the copy of 200000.
+  Translated copies("VAR i : INT; END_VAR", "i := 1;",
+                    "FUNCTION_BLOCK B VAR a, b : ARRAY[0..199999] OF INT; END_VAR b := a; "
+                    "END_FUNCTION_BLOCK\n");
+  EXPECT_EQ(verify(*copies.compilation.code), "");
+  EXPECT_EQ(copies.scan(), "");
 }
 
 // They are no keywords elsewhere: programs of before may have such variables.

@@ -57,7 +57,6 @@ TEST(References, AreParametersAndResults) {
   EXPECT_EQ(program.get("n") + " " + program.get("w.n"), "42 42");
 }
 
-// As at an index outside an array the PLC stops and names the place.
 // Lists: an element names the next one of its own type.
 TEST(References, AreInTheTypeThatTheyName) {
   Translated program(
@@ -75,6 +74,7 @@ TEST(References, AreInTheTypeThatTheyName) {
   EXPECT_EQ(program.get("a.sum"), "3");
 }
 
+// As at an index outside an array the PLC stops and names the place.
 TEST(References, StopAtNull) {
   for (const char* use : {"p^ := 1;", "i := p^;", "r^.y := 1;", "pa^[i] := 1;", "rs^ := 'a';",
                           "rt^(IN := TRUE);", "rs2 := rs^;", "pt := r^;"}) {
@@ -119,6 +119,13 @@ TEST(References, AreRefusedWithOneClearLine) {
               HasSubstr("the type 'S' contains itself"));
   EXPECT_THAT(first("", "TYPE P : REF_TO Q; Q : REF_TO ARRAY[0..1] OF P; END_TYPE "),
               HasSubstr("contains itself"));
+  // Of the variables of Owner those behind `part` are not known when the body of Part is translated.
+  EXPECT_THAT(first("",
+                    "FUNCTION_BLOCK Owner VAR part : Part; n : INT; END_VAR METHOD m n := 1; END_METHOD "
+                    "part(owner := REF(THIS)); END_FUNCTION_BLOCK "
+                    "FUNCTION_BLOCK Part VAR_INPUT owner : REF_TO Owner; END_VAR owner^.m(); "
+                    "END_FUNCTION_BLOCK "),
+              HasSubstr("'Owner' contains 'Part', which therefore cannot call its method 'm'"));
   const auto* gone = "may be gone when the reference is used";
   EXPECT_THAT(first("", "FUNCTION f : REF_TO INT VAR i : INT; END_VAR f := REF(i); END_FUNCTION "),
               HasSubstr(gone));

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "plc/machine/arithmetic.hpp"
+#include "plc/semantics/type.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -29,6 +30,8 @@ idl::plc::ValueKind kind_of(st::Kind kind) {
     case st::Kind::string:
       return STRING_VALUE;
     case st::Kind::enumeration:
+    case st::Kind::interface_:
+    case st::Kind::reference:
       return ENUMERATED_VALUE;
     default:
       return st::is_signed(kind) ? SIGNED_VALUE : UNSIGNED_VALUE;
@@ -70,6 +73,8 @@ idl::plc::VariableInfo info_of(const st::Location& at) {
     if (info.names.size() == 64) break;
     info.names.push_back({enumerator.text.substr(0, 64), enumerator.value});
   }
+  if (st::is_reference(at.type->kind))
+    info.names.push_back({"NULL", static_cast<std::int64_t>(st::null_reference)});
   return info;
 }
 
