@@ -12,7 +12,7 @@ FUZZ_SECONDS ?= 6
 # Ninja shows how many of how many steps are done, and for how long it has been at it.
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
-.PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak hostile hostile_bus recordings histories \
+.PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak hostile hostile_bus recordings histories rests \
   nightly coverage package clean
 
 run: product
@@ -120,6 +120,10 @@ recordings: build
 HISTORIES ?= 200
 histories: build
 	TRUNNION_SEED=$(SEED) TRUNNION_HISTORIES=$(HISTORIES) $(BUILD)/bin/history_test
+
+# Every service swapped and killed at every kind of rest, also long ones.
+rests: build
+	TRUNNION_ALL_RESTS=1 $(BUILD)/bin/rests_test
 
 # Continues where an interrupted run of the same commit was.
 nightly:

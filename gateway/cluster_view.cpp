@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cluster_view.hpp"
 
+#include <utility>
+
 #include "contracts/topics.hpp"
 #include "machine/axes.hpp"
 #include "service/node.hpp"
@@ -25,7 +27,7 @@ std::vector<std::uint16_t> drive_columns(const machine::Parameters& parameters) 
 
 }  // namespace
 
-ClusterView::ClusterView(bus::Bus& bus)
+ClusterView::ClusterView(bus::Bus& bus, std::string title)
     : announcements_(bus.reader(topics::announcement)),
       service_states_(bus.reader(topics::service_state)),
       alarms_(bus.reader(topics::alarm)),
@@ -43,7 +45,9 @@ ClusterView::ClusterView(bus::Bus& bus)
       parameters_(bus.reader(topics::parameter_set)),
       tools_(bus.reader(topics::tool_table)),
       offsets_(bus.reader(topics::work_offsets)),
-      programs_(bus.reader(topics::program_list)) {}
+      programs_(bus.reader(topics::program_list)) {
+  document_.set_title(std::move(title));
+}
 
 void ClusterView::drain(double now) {
   idl::service::Announcement announcement;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "bus/bus.hpp"
 #include "src/alarm_history.hpp"
@@ -14,7 +15,8 @@ namespace trunnion::gateway {
 
 class ClusterView {
  public:
-  explicit ClusterView(bus::Bus& bus);
+  /// `title` of the machine, for display.
+  explicit ClusterView(bus::Bus& bus, std::string title = {});
   /// Takes what has come. `now` in monotonic seconds.
   void drain(double now);
   /// Everything as it is now; peaks and the trace start afresh with it. `operating` is that of

@@ -93,6 +93,7 @@ int main(int argc, char** argv) {
   try {
     service::Node node(options);
     if (own.port == 0) own.port = options.machine.port;
+    own.title = options.machine.title;
     own.host_names = options.machine.host_names;
     char computer[256] = {};
     gethostname(computer, sizeof computer - 1);

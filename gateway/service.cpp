@@ -20,7 +20,7 @@ constexpr std::size_t largest_alarm_file = 2u << 20;  // bytes, then it is rewri
 GatewayService::GatewayService(service::Node& node, const GatewayOptions& options)
     : mailbox_([&node] { node.bus().signal().notify(); }),
       links_(node.bus()),
-      view_(node.bus()),
+      view_(node.bus(), options.title),
       alarms_(node.alarms()) {
   if (options.tls.on()) certificate_.emplace(options.tls);
   if (!options.alarm_file.empty()) begin_alarm_history(options.alarm_file);

@@ -19,6 +19,7 @@ namespace trunnion::gateway {
 struct GatewayOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;
+  std::string title;                    ///< of the machine
   std::filesystem::path web;            ///< the built page
   std::vector<std::string> host_names;  ///< as of Site
   RecordingSettings recordings;

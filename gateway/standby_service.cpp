@@ -15,6 +15,8 @@ constexpr double poll_period = 0.1;  // s
 Json comparable(Json document, bool executed) {
   document.erase("trace");
   document.erase("operating");
+  document.erase("run_times");
+  if (document.contains("cluster")) document["cluster"].erase("title");
   if (document.contains("axes"))
     for (auto& axis : document["axes"]) {
       axis.erase("following_peak");

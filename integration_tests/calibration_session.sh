@@ -14,6 +14,8 @@ mode: correct
 axes:
   A: {start_deg: -60, end_deg: 60, points: 3, other_deg: 0}
   C: {start_deg: 0, end_deg: 240, points: 3, other_deg: 0}
+# Ten times the delivered one: the 420 degrees of the ways of a measurement would last 70 s.
+settings: {rotary_feed_deg_per_min: 3600}
 END
 
 # up LINE: a cluster whose truth has this instead of the probe of the example.

@@ -11,6 +11,7 @@ cat >> "$work/m/parameters.yaml" <<'END'
 "102129": 0.15
 END
 sed -i 's/^"102062": 1/"102062": 0/; s/^"102107": 0.2/"102107": 0.1/' "$work/m/parameters.yaml"
+began=$(date -u +%Y-%m-%dT%H:%M:%S)
 start_cluster "$work/m"
 gantry() { "$trunnion" gantry --domain "$domain" "$@"; }
 
@@ -22,6 +23,17 @@ grep -q 'difference of speeds .* not supervised (parameter 102108)' "$work/shown
 grep -q 'Auto Offset: parameter 102129 of axis 2 would be set to 0.000000 mm (now 0.150000)' "$work/shown" || fail "$(cat "$work/shown")"
 "$trunnion" param get 102129 --domain "$domain" | grep -q '= 0.15' || fail "a proposal has written"
 await_alarm 'Slave axis 2 is off its master axis 1 by -0.1500 mm, limit 0.1000 mm (parameter 102107)'
+# When it was raised, of the wall clock, and the cycle, or - when none belongs to it.
+grep -qE '^ *[0-9]+ [A-Z]+ +[a-z]+ +[-0-9]{10}T[0-9:]{8}\.[0-9]{3}Z cycle ([0-9]+|-) +Slave axis 2 ' "$work/alarms" ||
+  fail "$(cat "$work/alarms")"
+"$trunnion" alarms --json --domain "$domain" > "$work/json"
+"$python" - "$work/json" "$began" "$(date -u +%Y-%m-%dT%H:%M:%SZ)" <<'END' || fail "$(cat "$work/json")"
+import json, sys
+path, began, now = sys.argv[1:]
+alarms = json.load(open(path))
+# Texts of this form sort as the moments do; those of now and of the alarm differ by the milliseconds.
+assert alarms and all(began <= alarm["raised"] and alarm["raised"][:19] <= now[:19] for alarm in alarms), (began, now)
+END
 
 gantry --json --write > "$work/json"
 "$python" - "$work/json" <<'END' || fail "$("$trunnion" status --domain "$domain")"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# mdi_commands.sh TRUNNION MACHINES PYTHON: mdi on a machine of two channels prints where the axes of its own channel are, after
+# mdi_commands.sh TRUNNION MACHINES PYTHON: mdi and channel status. mdi on a machine of two channels prints where the axes of its own channel are, after
 # its own line; errors are those of its own line.
 set -euo pipefail
 trunnion=$1 python=$3
@@ -17,6 +17,35 @@ assert abs(state["workpiece"][state["letters"].index("X")] - place) < 1e-3, (sta
 END
   done
 done
+
+# The status of a channel: once as JSON and as text, then live.
+"$trunnion" channel status --channel 1 --json --domain "$domain" > "$work/json"
+"$trunnion" alarms --json --domain "$domain" > "$work/alarms"
+"$python" - "$work/json" "$work/alarms" <<'END' || fail "$(cat "$work/json")"
+import json, sys
+status, alarms = (json.load(open(path)) for path in sys.argv[1:])
+axes = {axis["axis"]: axis for axis in status["axes"]}
+assert (status["channel"], status["mode"], status["state"]) == (1, "MDI", "IDLE"), status
+assert status["connected"] and status["feed_override"] == 1 and status["alarms"] == len(alarms), (status, alarms)
+assert abs(axes["X"]["workpiece"] - 15) < 1e-3 and axes["X"]["unit"] == "mm", axes
+END
+"$trunnion" channel status --channel 1 --domain "$domain" > "$work/said"
+grep -Eq '^X  machine .* workpiece .* to go .* mm$' "$work/said" || fail "$(cat "$work/said")"
+"$trunnion" channel status --watch --channel 1 --domain "$domain" > "$work/live" &
+watcher=$!
+shows() { grep -q "$1" "$work/live"; }
+wait_until "the live status has a first line" shows '"channel":1'
+"$trunnion" mdi "G0 X16" --channel 1 --domain "$domain" > "$work/said"
+shows_place() { "$python" -c 'import json, sys
+for line in open(sys.argv[1]).read().splitlines()[-1:]:
+  place = {axis["axis"]: axis["workpiece"] for axis in json.loads(line)["axes"]}["X"]
+  sys.exit(abs(place - 16) > 1e-3)' "$work/live"; }
+wait_until "the live status has X16" shows_place
+kill "$watcher"
+wait "$watcher" || fail "the live status ends with $?"
+if "$trunnion" channel hold --watch --domain "$domain" 2> "$work/said"; then fail "--watch is taken by a command"; fi
+grep -q -- '--watch is an option of status' "$work/said" || fail "$(cat "$work/said")"
+
 if "$trunnion" mdi "G0 X1000" --channel 1 --domain "$domain" 2> "$work/said"; then fail "a line beyond the travel is executed"; fi
 grep -q 'X would go to 990.0000.*alarm 140' "$work/said" || fail "$(cat "$work/said")"
 # A message of the program is no failure of the line.

@@ -261,6 +261,9 @@ TEST_F(MeasurementResults, AreRefusedWhereThereIsNoMachineToMeasure) {
   refused("mode: [", "inputs:1:");
   refused("sphere: {centre_mm: [60, 40, 400]}\n", "is not within its travel");
   refused("axes: {A: {start_deg: -60, end_deg: 60, points: 2}, C: {}}\n", "3 .. 12");
+  refused("measuring_path_mm: 3\n", "measuring_path_mm 3 mm is above 2.36 mm");
+  refused("axes: {A: {start_deg: -60, end_deg: 60, points: 3, normalization: 5}, C: {}}\n",
+          "the normalizations do not fix the free components");
   press_stop(rig);
   ASSERT_TRUE(rig.until([&] { return rig.cluster->has_alarm(130); }));
   refused(MeasurementRig::inputs, "alarm 130");

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# new_service.sh TRUNNION: what `trunnion new service` writes, and what it refuses. The test of the packages builds it.
+# new_service.sh TRUNNION: what `trunnion new service` and `new machine` write, and what they refuse. The test of the
+# packages builds the service.
 set -euo pipefail
 trunnion=$1
 work=$(mktemp -d)
@@ -23,3 +24,17 @@ refused "a name has 1 .. 32 small letters" new service My.Stage
 refused "is a service of Trunnion" new service drive
 "$trunnion" new service gap --stage gantry --directory there/gap --json | grep -q '"directory":"there/gap"'
 grep -q 'Stage::GANTRY' there/gap/main.cpp
+
+# Its plc is a link to that of another machine.
+"$trunnion" new machine mine --from four-axis > said
+grep -q "check-machine mine" said || fail "$(cat said)"
+[ -f mine/plc/main.st ] && [ -z "$(find mine -type l)" ] && [ ! -e mine/recordings ] || fail "$(find mine)"
+[ "$(grep -c '^name: mine$' mine/machine.yaml)" = 1 ] || fail "$(cat mine/machine.yaml)"
+"$trunnion" check-machine mine > said || fail "$(cat said)"
+"$trunnion" new machine again --from ./mine --directory there/again --json | grep -q '"directory":"there/again"'
+diff -r --exclude machine.yaml mine there/again
+refused "mine exists and is not empty" new machine mine --from four-axis
+refused "no such directory" new machine other --from none
+rm -r mine/plc && ln -s ../ac-table/plc mine/plc
+refused "is a link to '../ac-table/plc', which is not there" new machine other --from ./mine
+[ ! -e other ] || fail "a refused copy leaves a folder"

@@ -8,13 +8,16 @@ work=$(mktemp -d)
 trap 'kill $(jobs -p) 2> /dev/null || true; rm -rf "$work"' EXIT
 fail() { echo "$1"; exit 1; }
 
-# What is replayed and recorded again is the same, every message of it.
-"$1/trunnion-recorder" --output "$work/again.mcap" --machine gantry-cb-head --domain "$3" --duration 300 > "$work/log" &
+# What is replayed and recorded again is the same, every message of it, with another compression of the file.
+"$1/trunnion-recorder" --output "$work/again.mcap" --machine gantry-cb-head --domain "$3" --duration 300 --compression none > "$work/log" &
 recorder=$!
 "$trunnion" replay "$golden" --domain "$3" --wait --linger 5 > "$work/replay"
 kill -TERM $recorder
 wait $recorder || fail "the recorder lost something: $(cat "$work/log")"
 "$trunnion" diff "$golden" "$work/again.mcap" > "$work/diff" || fail "$(cat "$work/diff")"
+
+compressions() { "$trunnion" info "$1" | awk '$1 == "chunks" {print $NF}'; }
+compressions "$golden" | grep -q zstd && [ "$(compressions "$work/again.mcap")" = none ] || fail "$(compressions "$work/again.mcap")"
 
 # A recording is not replaced by another, unless that is wanted.
 status=0

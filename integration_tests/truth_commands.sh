@@ -49,21 +49,24 @@ run() {
   "$trunnion" run "$machine" "$work/circle.nc" --report "$work/$name" "$@" > "$work/$name.log" 2>&1 || fail "$(cat "$work/$name.log")"
   "$trunnion" export "$work/$name/recording.mcap" --csv feedback_frame > "$work/$name.csv"
 }
+# Cycle, channel, epoch, revision, and both positions of five axes: what does not depend on when and in which batches it
+# was written.
+motion() { cut -d, -f1-14 "$work/$1.csv"; }
 rm "$machine/truth.yaml"
 run none
 : > "$machine/truth.yaml"
 run ideal
-cmp "$work/none.csv" "$work/ideal.csv" || fail "an empty truth.yaml changes the machine"
+cmp <(motion none) <(motion ideal) || fail "an empty truth.yaml changes the machine"
 printf 'drives:\n  X:\n    mechanics: {coulomb: 0.02, backlash_um: 10}\n    load_encoder: {resolution_um: 1}\n' \
   > "$machine/truth.yaml"
 run first
 run second
-cmp "$work/first.csv" "$work/second.csv" || fail "the second run differs"
+cmp <(motion first) <(motion second) || fail "the second run differs"
 run other_vendor --vendor fastdds
-cmp "$work/first.csv" "$work/other_vendor.csv" || fail "the feedback differs between the vendors"
+cmp <(motion first) <(motion other_vendor) || fail "the feedback differs between the vendors"
 commanded() { cut -d, -f5-9 "$1"; }
 cmp <(commanded "$work/first.csv") <(commanded "$work/ideal.csv") || fail "the commands differ from the ideal machine's"
-! cmp -s "$work/first.csv" "$work/ideal.csv" || fail "the drive does not use truth.yaml"
+! cmp -s <(motion first) <(motion ideal) || fail "the drive does not use truth.yaml"
 
 # The example: a machine of tenths of a millimetre, which its drives can still move.
 cp "$4/worn-trunnion/truth.yaml" "$machine"

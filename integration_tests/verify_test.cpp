@@ -64,6 +64,25 @@ TEST(Verify, ACompensationWithTheSignOfBacklashTurnedRoundIsFound) {
   EXPECT_FALSE(result.equal());
 }
 
+// The golden recording compensates errors that the machine is not delivered with.
+TEST(Verify, SaysThatTheParametersAreTheRecordingsAndUsesTheMachinesWhenAsked) {
+  auto options = golden("ac-table", "compensation");
+  const auto recorded = verification::verify(options);
+  EXPECT_TRUE(recorded.equal());
+  EXPECT_EQ(recorded.parameters.rfind("those of the recording, ", 0), 0u) << recorded.parameters;
+  EXPECT_NE(recorded.parameters.find(" parameters differ, the first is "), std::string::npos)
+      << recorded.parameters;
+  options.machine_parameters = true;
+  const auto delivered = verification::verify(options);
+  EXPECT_EQ(delivered.parameters.rfind("those of " + cluster::find_machine("ac-table") + ", ", 0), 0u)
+      << delivered.parameters;
+  EXPECT_FALSE(delivered.equal());
+  ASSERT_TRUE(delivered.difference.first.has_value()) << delivered.problem;
+  EXPECT_EQ(delivered.difference.first->topic, "compensation_frame");
+  options.service = "parameters";
+  EXPECT_THROW(verification::verify(options), std::runtime_error);
+}
+
 TEST(Verify, AServiceThatEndsAtOnceIsAProblemAndNotAWait) {
   auto options = golden("ac-table", "kinematics");
   options.executable = "/bin/false";

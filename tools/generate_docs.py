@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the reference tables of docs/ from the files that define their content: parameters, alarms, G and M codes, PLC registers;
-and what the page knows of alarms and codes.
+"""Writes the reference tables of docs/ from the files that define their content: parameters, alarms, G and M codes, PLC registers,
+the tables of IEC 61131-3; and what the page knows of alarms and codes.
 
 With --check nothing is written: differences are printed and the exit status is 1.
 """
@@ -91,26 +91,27 @@ def machine_alarms():
 
 
 def translated_alarms(language, rows):
-    """Cause and remedy by number; exactly those of the alarms."""
+    """Text, cause and remedy by number; exactly those of the alarms."""
     path = f"libs/machine/translations/alarms.{language}.yaml"
     texts = yaml.safe_load(read(path))
-    wrong = set(texts) ^ {row["number"] for row in rows} | {number for number, one in texts.items() if not all(one.get(key) for key in ("cause", "remedy"))}
-    if wrong: fail(path, f"cause and remedy of these alarms are missing, or there are no such alarms: {', '.join(map(str, sorted(wrong)))}")
+    wrong = set(texts) ^ {row["number"] for row in rows} | {number for number, one in texts.items() if not all(one.get(key) for key in ("text", "cause", "remedy"))}
+    if wrong: fail(path, f"text, cause and remedy of these alarms are missing, or there are no such alarms: {', '.join(map(str, sorted(wrong)))}")
     return texts
 
 
 def alarm_catalogue():
-    """What the page shows below the text of an alarm; the NC language's alarms name cause and place in their texts."""
+    """What the page shows of an alarm beside the service's own text; the NC language's alarms name cause and place in theirs."""
     out = ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {MACHINE_ALARMS} and its translations by tools/generate_docs.py.", "",
-           "/** Usual cause of an alarm and what the operator does, by its number and the language. */",
-           "export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { cause: string; remedy: string }>>>> = {"]
+           "/** What an alarm says, its usual cause and what the operator does, by its number and the language. */",
+           "export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { text: string; cause: string; remedy: string }>>>> = {"]
     rows = machine_alarms()
     languages = {"en": {row["number"]: row for row in rows}, **{name: translated_alarms(name, rows) for name in ("zh", "de")}}
     for row in rows:
         out.append(f"  {row['number']}: {{")
         for name, texts in languages.items():
             one = texts[row["number"]]
-            out.append(f"    {name}: {{ cause: {json.dumps(one['cause'], ensure_ascii=False)}, remedy: {json.dumps(one['remedy'], ensure_ascii=False)} }},")
+            members = (f"{key}: {json.dumps(one[key], ensure_ascii=False)}" for key in ("text", "cause", "remedy"))
+            out.append(f"    {name}: {{ {', '.join(members)} }},")
         out.append("  },")
     return out + ["};"]
 
@@ -302,9 +303,37 @@ def input_catalogue():
             *(f"  {json.dumps(r['name'] + ('_' if 'each' in r or 'count' in r else ''))}," for r in named), "]);"]
 
 
+STANDARD = "libs/plc/standard"
+
+
+def standard_tables():
+    """Every table of IEC 61131-3 by its number."""
+    names = sorted(n for n in os.listdir(os.path.join(ROOT, STANDARD)) if n.endswith(".yaml"))
+    tables = [t for n in names for t in yaml.safe_load(read(f"{STANDARD}/{n}"))["tables"]]
+    return sorted(tables, key=lambda t: t["table"])
+
+
+def standard():
+    tables, words = standard_tables(), {"done": "yes", "partly": "partly", "not": "no"}
+    plain = lambda text: re.sub(r"([*<`]|(?<!\w)_)", r"\\\1", text)
+    status = [r.get("status", "done") for t in tables for r in t["rows"]]
+    count = {s: status.count(s) for s in words}
+    out = ["# The PLC and the tables of IEC 61131-3", "", f"Generated from `{STANDARD}` by `tools/generate_docs.py`.", "",
+           f"IEC 61131-3:2013 (third edition) row by row: of {len(status)} rows {count['done']} are done, {count['partly']} partly, {count['not']} are not "
+           "available; what is not available is refused with an error, never accepted without effect. Each row that is done has a program in the "
+           "files above, which a test runs, or names the test that covers it. The features are in our own words; rows are counted as in the "
+           "standard, where some of the later tables may differ in a letter. What the compiler has is described in [plc.md](plc.md#language).", ""]
+    for t in tables:
+        out += [f"## Table {t['table']}: {t['title']}", ""] + ([t["remark"], ""] if "remark" in t else [])
+        out += table(("row", "feature", "done", "remark"),
+                     [(r["row"], plain(r["feature"]), words[r.get("status", "done")], plain(r.get("remark", ""))) for r in t["rows"]]) + [""]
+    return out
+
+
 OUTPUTS = {
     "docs/parameters.md": lambda: paragraphs(parameters()), "docs/alarms.md": lambda: paragraphs(alarms()), "docs/codes.md": lambda: paragraphs(codes()),
     "docs/macros.md": lambda: paragraphs(macros()), "docs/plc-registers.md": lambda: paragraphs(registers()),
+    "docs/plc-standard.md": lambda: paragraphs(standard()),
     "gateway/web/src/alarm_catalogue.ts": alarm_catalogue, "gateway/web/src/program/code_catalogue.ts": code_catalogue,
     "gateway/web/src/plc/input_catalogue.ts": input_catalogue,
 }

@@ -81,7 +81,7 @@ TrueMachine load_calibrated_machine(const CalibrationTarget& target, const Commo
 }
 
 calibration::MeasuredMachine measured_machine(const TrueMachine& machine, std::uint16_t channel) {
-  return {machine.name, machine::chain_parameters(machine.model, channel), machine.outline, "",
+  return {machine.name, machine::chain_parameters(machine.model, channel), machine.outline,
           calibration::probe_and_sphere(machine.truth.probe, machine.truth.solids)};
 }
 

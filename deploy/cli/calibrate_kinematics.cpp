@@ -144,11 +144,18 @@ bus::Json json_of(const calibration::KinematicsResult& r, const calibration::Mea
                             {"difference_mm", vector_json(pose.difference)},
                             {"residual_mm", vector_json(pose.residual)},
                             {"diameter_mm", pose.diameter}});
+  for (const auto& one : r.corrections)
+    out["corrections"].push_back({{"name", one.name},
+                                  {"axis", std::string(1, "ABCUVW"[one.angle])},
+                                  {"before_mm", vector_json(one.before)},
+                                  {"circles_mm", vector_json(one.circles)},
+                                  {"all_poses_mm", vector_json(one.all_poses)}});
   for (const auto& v : r.vectors)
     out["vectors"].push_back({{"axis", v.name},
                               {"offset_before_mm", vector_json(v.before)},
                               {"offset_after_mm", vector_json(v.after)},
                               {"offset_uncertainty_95_mm", vector_json(v.expanded)},
+                              {"offset_with_real_directions_mm", vector_json(v.with_directions)},
                               {"observed", v.observed},
                               {"direction_ideal", vector_json(v.direction_before)},
                               {"direction_real", vector_json(v.direction_after)},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// channel: an operator's command to a channel. The words are the table's (idl/operator_commands.yaml).
+// channel: an operator's command to a channel, and its status. The words of the commands are the table's
+// (idl/operator_commands.yaml).
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
@@ -12,6 +13,7 @@
 #include <thread>
 
 #include "bus/json.hpp"
+#include "channel_status.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "cluster/operating_station.hpp"
@@ -26,12 +28,15 @@ namespace {
 using idl::channel::CommandKind;
 using idl::channel::RunState;
 
+constexpr const char* status_word = "status";
+
 struct ChannelOptions {
   std::string word;
   std::vector<std::string> arguments;
   std::uint16_t channel = 0;
   std::uint32_t from_line = 0;
   bool take_over = false;
+  bool watch = false;
 };
 
 idl::channel::ChannelRequest request_of(cluster::Client& client, const ChannelOptions& options) {
@@ -88,6 +93,10 @@ void renew_until_released(cluster::Client& client, const idl::channel::ChannelRe
 }
 
 int run_command(const Common& common, const ChannelOptions& options) {
+  if (options.word == status_word && options.arguments.empty())
+    return show_channel_status(common, options.channel, options.watch);
+  if (options.word == status_word) throw std::runtime_error("status has no arguments: give --channel N");
+  if (options.watch) throw std::runtime_error("--watch is an option of status");
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
   auto request = request_of(client, options);
@@ -111,7 +120,10 @@ int run_command(const Common& common, const ChannelOptions& options) {
 }
 
 std::string list_of_commands() {
-  std::string text = "COMMANDS, described in docs/operator-commands.md:";
+  std::string text =
+      "status: position, mode, state, program and line, feed, spindle, tool and alarms, once or with "
+      "--watch\n"
+      "COMMANDS, described in docs/operator-commands.md:";
   for (const auto& row : commands::channel_commands()) {
     const auto usage = commands::usage(row);
     text +=
@@ -124,9 +136,9 @@ std::string list_of_commands() {
 
 void add_channel_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<ChannelOptions>();
-  auto* command = add_command(app, common, "channel", "Operate a channel",
+  auto* command = add_command(app, common, "channel", "Operate a channel, or show its status",
                               [&common, options] { return run_command(common, *options); });
-  std::vector<std::string> words;
+  std::vector<std::string> words{status_word};
   for (const auto& row : commands::channel_commands()) words.emplace_back(row.word);
   command->add_option("what", options->word, "What to do")->required()->check(CLI::IsMember(words));
   command->add_option("arguments", options->arguments, "Program, mode, on or off, axes, levels, numbers")
@@ -134,6 +146,9 @@ void add_channel_command(CLI::App& app, Common& common) {
   command->add_option("--channel", options->channel, "Channel number");
   command->add_option("--from-line", options->from_line,
                       "With start: search this line, report what will happen, and wait for another start");
+  command->add_flag(
+      "--watch", options->watch,
+      "With status: until Ctrl-C, in place at a terminal, otherwise one line of JSON per change");
   command->add_flag("--take-right", options->take_over, cluster::take_right_help);
   command->footer(list_of_commands());
 }

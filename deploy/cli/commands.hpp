@@ -27,7 +27,7 @@ void add_cluster_commands(CLI::App& app, Common& common);      // up, status
 void add_down_command(CLI::App& app, Common& common);          // down
 void add_run_command(CLI::App& app, Common& common);           // run
 void add_operator_commands(CLI::App& app, Common& common);     // mdi, alarms, estop
-void add_channel_command(CLI::App& app, Common& common);       // channel
+void add_channel_command(CLI::App& app, Common& common);       // channel, its status
 void add_parameter_commands(CLI::App& app, Common& common);    // param
 void add_compensation_command(CLI::App& app, Common& common);  // compensation
 void add_topic_commands(CLI::App& app, Common& common);        // topic, record
@@ -54,7 +54,7 @@ void add_swap_command(CLI::App& app, Common& common);          // swap
 void add_upgrade_command(CLI::App& app, Common& common);       // upgrade
 void add_user_command(CLI::App& app, Common& common);          // user
 void add_certificate_command(CLI::App& app, Common& common);   // certificate
-void add_new_command(CLI::App& app, Common& common);           // new service
+void add_new_command(CLI::App& app, Common& common);           // new service, new machine
 void add_completion_command(CLI::App& app, Common& common);    // completion
 void add_check_machine_command(CLI::App& app, Common& common);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// new service: the sources of a stage to begin with
+// new service: the sources of a stage to begin with; new machine: the folder of a machine
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -15,6 +15,8 @@
 #include "cluster/cluster_files.hpp"
 #include "commands.hpp"
 #include "machine/services.hpp"
+#include "machine/yaml.hpp"
+#include "machine_check/machine_check.hpp"
 #include "trunnion/version.hpp"
 
 namespace trunnion::cli {
@@ -38,12 +40,21 @@ std::string filled(std::string text, const Words& words) {
   return text;
 }
 
-Words words_for(const std::string& name, const std::string& stage) {
+void require_name(const std::string& name) {
   const bool valid = !name.empty() && name.size() <= 32 && name.front() >= 'a' && name.front() <= 'z' &&
                      name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string::npos;
   if (!valid)
     throw std::runtime_error(
         "'" + name + "': a name has 1 .. 32 small letters, digits, - and _, and begins with a letter");
+}
+
+void require_empty(const std::string& directory) {
+  if (fs::exists(directory) && !fs::is_empty(directory))
+    throw std::runtime_error(directory + " exists and is not empty: name another directory");
+}
+
+Words words_for(const std::string& name, const std::string& stage) {
+  require_name(name);
   if (machine::find_service(name) != nullptr)
     throw std::runtime_error("'" + name + "' is a service of Trunnion: choose another name");
   auto identifier = name;
@@ -66,8 +77,7 @@ int new_service(const Common& common, const std::string& name, const std::string
                 std::string directory) {
   const auto words = words_for(name, stage);
   if (directory.empty()) directory = name;
-  if (fs::exists(directory) && !fs::is_empty(directory))
-    throw std::runtime_error(directory + " exists and is not empty: name another directory");
+  require_empty(directory);
   fs::create_directories(directory);
   std::vector<std::string> written;
   for (const auto& entry : fs::directory_iterator(template_directory())) {
@@ -102,11 +112,81 @@ int new_service(const Common& common, const std::string& name, const std::string
   return 0;
 }
 
+// Relative to the machine, also those behind links. Its recordings are of its own name.
+std::vector<fs::path> files_of(const fs::path& machine) {
+  if (const auto broken = machine_check::broken_links(machine.string()); !broken.empty())
+    throw std::runtime_error(machine_check::to_string(broken.front()));
+  std::vector<fs::path> files;
+  const fs::recursive_directory_iterator end{};
+  for (fs::recursive_directory_iterator entry(machine, fs::directory_options::follow_directory_symlink);
+       entry != end; ++entry) {
+    if (entry->path() == machine / "recordings")
+      entry.disable_recursion_pending();
+    else if (entry->is_regular_file())
+      files.push_back(entry->path().lexically_relative(machine));
+  }
+  return files;
+}
+
+// Comments and everything else of machine.yaml stay.
+void rename_machine(const fs::path& file, const std::string& name) {
+  auto text = machine::read_text(file.string());
+  const std::string key = "name:";
+  const auto at = text.starts_with(key) ? 0 : text.find("\n" + key);
+  if (at == std::string::npos) throw std::runtime_error(file.string() + ": error: it has no line 'name:'");
+  const auto begin = text.find(key, at), end = std::min(text.find('\n', begin), text.size());
+  text.replace(begin, end - begin, key + " " + name);
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+int new_machine(const Common& common, const std::string& name, const std::string& from,
+                std::string directory) {
+  require_name(name);
+  if (directory.empty()) directory = name;
+  require_empty(directory);
+  const fs::path source = cluster::find_machine(from), target = directory;
+  const auto files = files_of(source);  // before the new folder is there, which may be in the other one
+  try {
+    for (const auto& file : files) {
+      fs::create_directories((target / file).parent_path());
+      fs::copy_file(source / file, target / file);
+    }
+    rename_machine(target / "machine.yaml", name);
+  } catch (...) {
+    fs::remove_all(target);
+    throw;
+  }
+  if (common.json) {
+    std::printf("%s\n", bus::text_of({{"directory", directory}, {"files", files.size()}}).c_str());
+    return 0;
+  }
+  std::printf("%s: a copy of %s with the same domain and port: change them in machine.yaml to run both\n",
+              directory.c_str(), from.c_str());
+  std::printf("trunnion check-machine %s && trunnion up %s\n", directory.c_str(), directory.c_str());
+  return 0;
+}
+
+void add_new_machine(CLI::App& group, Common& common) {
+  auto name = std::make_shared<std::string>(), from = std::make_shared<std::string>(),
+       directory = std::make_shared<std::string>();
+  auto* command = add_command(
+      group, common, "machine",
+      "Copy the folder of a machine, with the files that its links lead to and without its recordings",
+      [&common, name, from, directory] { return new_machine(common, *name, *from, *directory); });
+  command->add_option("name", *name, "Name of the new machine")->required();
+  command->add_option("--from", *from, "Name under configs/machines, or a directory with machine.yaml")
+      ->required();
+  command->add_option("--directory", *directory, "Where to (default: the name)");
+}
+
 }  // namespace
 
 void add_new_command(CLI::App& app, Common& common) {
-  auto* group = app.add_subcommand("new", "Sources to begin with");
+  auto* group = app.add_subcommand("new", "Sources or a machine to begin with");
   group->require_subcommand(1);
+  add_new_machine(*group, common);
   auto name = std::make_shared<std::string>(), directory = std::make_shared<std::string>();
   auto stage = std::make_shared<std::string>("compensation");
   auto* command = add_command(

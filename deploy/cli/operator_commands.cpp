@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "active_alarms.hpp"
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
@@ -84,31 +85,27 @@ int mdi(const Common& common, const Line& line) {
   return 0;
 }
 
+// The cycle is that of the stream; what has nothing to do with the stream names none.
+void print_alarm(const ActiveAlarm& one) {
+  const auto& a = one.alarm;
+  const auto cycle = a.cycle == 0 ? "-" : std::to_string(a.cycle);
+  std::printf("%4u %-10s %-12s %s cycle %-10s %s\n", a.number, bus::to_string(a.severity), a.source.c_str(),
+              one.raised.c_str(), cycle.c_str(), a.text.c_str());
+}
+
 int alarms(const Common& common, bool reset, bool take_over) {
   const auto cluster = cluster::find_cluster(common.domain);
   std::optional<cluster::OperatingStation> station;
   if (reset) station.emplace(cluster.run.domain, take_over);
   cluster::Client client(cluster.run.domain);
   if (reset) client.reset_alarms();
-  auto reader = client.bus().reader(topics::alarm);
-  const double began = service::monotonic_seconds();
-  client.wait_for_all_services([&] { return reader.matched(); });
-  // What was written before follows its writer; on a computer that takes long for those, it takes longer too.
-  const double found = service::monotonic_seconds();
-  std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> list;
-  const double until = found + std::max(0.25, 2 * (found - began));
-  idl::service::Alarm a;
-  while (service::monotonic_seconds() < until) {
-    while (reader.take(a)) list[{a.instance, a.number, a.part}] = a;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
+  ActiveAlarms active(client);
+  active.wait_for_all();
   bus::Json json = bus::Json::array();
-  for (const auto& [key, entry] : list) {
-    if (!entry.active) continue;
-    json.push_back(bus::to_json(entry));
-    if (!common.json)
-      std::printf("%4u %-10s %-12s cycle %-10llu %s\n", entry.number, bus::to_string(entry.severity),
-                  entry.source.c_str(), static_cast<unsigned long long>(entry.cycle), entry.text.c_str());
+  for (const auto& [key, entry] : active.take()) {
+    json.push_back(bus::to_json(entry.alarm));
+    json.back()["raised"] = entry.raised;
+    if (!common.json) print_alarm(entry);
   }
   if (common.json) std::cout << bus::text_of(json, 2) << "\n";
   if (!common.json && json.empty()) std::printf("no alarms\n");
@@ -139,7 +136,8 @@ void add_operator_commands(CLI::App& app, Common& common) {
 
   auto reset = std::make_shared<bool>(false);
   auto take_over = std::make_shared<bool>(false);
-  command = add_command(app, common, "alarms", "List the active alarms",
+  command = add_command(app, common, "alarms",
+                        "List the active alarms: when each was raised (UTC), and at which cycle",
                         [&common, reset, take_over] { return alarms(common, *reset, *take_over); });
   command->add_flag("--reset", *reset, "Clear those whose cause is gone first");
   command->add_flag("--take-right", *take_over, cluster::take_right_help);

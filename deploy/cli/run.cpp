@@ -189,6 +189,31 @@ void search_line(cluster::Client& client, std::uint32_t line) {
                            " was not found: see the alarms of the recording");
 }
 
+// A run has no operator who sees that a program has stopped.
+class StopNotes {
+ public:
+  StopNotes(cluster::Client& client, std::size_t channels) : client_(client), held_(channels) {}
+  /// Says once for each stop how it is continued. `bar`: a line of progress is on the terminal.
+  void look(const std::vector<idl::channel::ChannelState>& newest, bool bar) {
+    for (std::size_t c = 0; c < newest.size(); ++c) {
+      const auto& state = newest[c];
+      const bool held = state.state == RunState::HELD;
+      if (held && !held_[c])
+        std::fprintf(stderr,
+                     "%schannel %zu is stopped behind line %u (%s): 'trunnion channel start --channel %zu "
+                     "--domain %u' continues it, Ctrl-C ends the run\n",
+                     bar ? "\n" : "", c, static_cast<unsigned>(state.line),
+                     state.detail.empty() ? "M0, M1 or a feed hold" : state.detail.c_str(), c,
+                     static_cast<unsigned>(client_.newest(topics::cluster).domain));
+      held_[c] = held;
+    }
+  }
+
+ private:
+  cluster::Client& client_;
+  std::vector<bool> held_;
+};
+
 struct Execution {
   std::string alarm;     // the first one, or empty
   bool starved = false;  // the drive has stopped because setpoints were missing
@@ -205,6 +230,7 @@ Execution execute(cluster::Client& client, std::size_t channels, const RunOption
   auto alarms = client.bus().reader(topics::alarm);
   std::vector<idl::channel::ChannelState> newest(channels);
   std::vector<bool> done(channels);
+  StopNotes stops(client, channels);
   for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::CYCLE_START);
   auto states = client.reader_from_now(topics::channel_state);
   const double began = service::monotonic_seconds();
@@ -226,6 +252,7 @@ Execution execute(cluster::Client& client, std::size_t channels, const RunOption
       result.starved |= a.number == alarm::setpoint_missing.number;
       if (alarm.empty()) alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
     }
+    if (alarm.empty()) stops.look(newest, bar);
     const double now = service::monotonic_seconds();
     if (bar && now - drawn > 0.1) {
       draw_progress(newest, now - began);

@@ -79,7 +79,7 @@ int run_test(const ServoOptions& o, const Common& common,
     return report.reached() ? 0 : 1;
   }
   for (const auto& f : report.figures)
-    print("%-34s %12.4f %-20s %-20s %s", f.name.c_str(), f.value, f.unit.c_str(), limits(f).c_str(),
+    print("%-36s %12.4f %-20s %-20s %s", f.name.c_str(), f.value, f.unit.c_str(), limits(f).c_str(),
           f.least || f.most ? f.reached() ? "pass" : "FAIL" : "");
   for (const auto& note : report.notes) std::cout << note << "\n";
   propose_settings(session, report.proposal);
@@ -88,6 +88,15 @@ int run_test(const ServoOptions& o, const Common& common,
                   : "nothing written: --write sets the parameters");
   if (!o.plot.empty()) print("%s", o.plot.c_str());
   return report.reached() ? 0 : 1;
+}
+
+void say_tuned(const SessionAxis& axis, const servo_analysis::TuningResult& result, double amplitude_um) {
+  print("%c  %s; largest vibration %.2f um of %g um", axis.letter,
+        result.reached() ? "every limit is reached" : "NOT every limit is reached",
+        result.largest_vibration * 1e3, amplitude_um);
+  if (result.settings.position_gain < least_position_gain)
+    print("%c  position gain %.4g 1/s, the limit of servo test position is %.1f 1/s: stiffen the axis",
+          axis.letter, result.settings.position_gain, least_position_gain);
 }
 
 int tune(const ServoOptions& o, const Common& common) {
@@ -127,10 +136,7 @@ int tune(const ServoOptions& o, const Common& common) {
                                   {"unit", f.unit},
                                   {"reached", f.reached()}});
     out["axes"].push_back(entry);
-    if (!common.json)
-      print("%c  %s; largest vibration %.2f um of %g um", a->letter,
-            result.reached() ? "every limit is reached" : "NOT every limit is reached",
-            result.largest_vibration * 1e3, o.amplitude_um);
+    if (!common.json) say_tuned(*a, result, o.amplitude_um);
   }
   out["proposal"] = json_of(values);
   out["reached"] = reached;
@@ -172,14 +178,18 @@ void add_servo_command(CLI::App& app, Common& common) {
     TestReport (*run)(ServoSession&, const TestOptions&);
   };
   static constexpr Row rows[] = {
-      {"position", "Following error to and fro at 1000 mm/min", &test_position},
+      {"position", "Following error to and fro at 1000 mm/min, and Kv without feed-forward", &test_position},
       {"speed", "Ripple of the speed and peaks of the acceleration at 3000 mm/min", &test_speed},
       {"current", "Time constant of the current loop by a step of the torque at rest", &test_current},
       {"overshoot",
        "Overshoot of the speed at the end of an acceleration at 100, 200, 500, 1000 and 3000 mm/min",
        &test_overshoot},
-      {"roundness", "Circle of two axes: roundness, servo mismatch, quadrant jumps", &test_roundness},
-      {"rtcp", "A rotary axis turns under RTCP: mismatch of linear and rotary axes", &test_rtcp},
+      {"roundness",
+       "Circle of two axes: roundness, quadrant jumps, servo mismatch with and without feed-forward",
+       &test_roundness},
+      {"rtcp",
+       "A rotary axis turns under RTCP: mismatch of linear and rotary axes with and without feed-forward",
+       &test_rtcp},
       {"frequency", "Frequency response of speed or position loop by a chirp, margins", &test_frequency},
       {"friction", "Coulomb, viscous and Stribeck friction, weight, inertia", &test_friction}};
   const auto add = [&](CLI::App& parent, const Row& row) {

@@ -128,7 +128,7 @@ TestReport test_encoders(ServoSession& session, const TestOptions& o) {
     throw std::runtime_error("parameter " +
                              machine::number_text(parameter::full_closed_loop.number(a.number)) +
                              " is 1: compare the encoders in semi-closed loop (0)");
-  const double travel = p.get(parameter::travel_per_revolution, a.number) / 1000;
+  const double travel = std::abs(p.get(parameter::travel_per_revolution, a.number)) / 1000;
   const auto result = session.run(samples_of({a.number}, 8),
                                   to_and_fro_program(a, a.into_travel(travel), feed_of(a, o, 300), 2));
   if (result.traces.empty() || result.traces[0].size() < 2)

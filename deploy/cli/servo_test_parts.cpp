@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "machine/gantry_pairs.hpp"
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::cli {
 
 using idl::servo::TestRequest;
@@ -28,22 +31,52 @@ TestRequest samples_of(const std::vector<std::uint16_t>& axes, std::uint16_t dec
   return r;
 }
 
-// To and fro with 0.5 s at constant speed where the travel permits.
-AxisTrace stroke(ServoSession& session, const SessionAxis& a, double feed, int strokes) {
+// The acceleration settles in 0.1 s.
+std::string stroke_program(const SessionAxis& a, double feed, double time, int strokes) {
   const double v = feed / per_minute;
   const double space = std::max(a.high - a.place, a.place - a.low);
-  const double distance = std::min(space, std::max(0.5, v * 0.6 + v * v / a.acceleration));
-  auto result =
-      session.run(samples_of({a.number}, 2), to_and_fro_program(a, a.into_travel(distance), feed, strokes));
+  const double distance = std::min(space, std::max(0.5, v * (time + 0.1) + v * v / a.acceleration));
+  return to_and_fro_program(a, a.into_travel(distance), feed, strokes);
+}
+
+AxisTrace stroke(ServoSession& session, const SessionAxis& a, double feed, int strokes) {
+  auto result = session.run(samples_of({a.number}, 2), stroke_program(a, feed, 0.5, strokes));
   if (result.traces.empty()) throw std::runtime_error("the drive gave no samples of the motion");
   return std::move(result.traces[0]);
 }
 
-servo_analysis::MotionFigures moved_figures(const AxisTrace& trace) {
-  const auto f = servo_analysis::motion_figures(trace);
+servo_analysis::MotionFigures moved_figures(const AxisTrace& trace, double settling) {
+  const auto f = servo_analysis::motion_figures(trace, settling);
   if (f.phases == 0)
     throw std::runtime_error("the axis was not at constant speed: it needs more travel, or a lower feed");
   return f;
+}
+
+double feed_without_feedforward(const ServoSession& session, const std::vector<std::uint16_t>& axes,
+                                const std::vector<double>& speeds, double feed) {
+  const auto& p = session.parameters();
+  double share = 1;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    share =
+        std::min(share, servo_analysis::bearable_share(speeds[i], p.get(parameter::position_gain, axes[i]),
+                                                       p.get(parameter::following_error_limit, axes[i])));
+  return share * feed;
+}
+
+std::vector<AxisTrace> run_without_feedforward(ServoSession& session, TestRequest request,
+                                               const std::string& program) {
+  const auto& p = session.parameters();
+  const std::size_t count = request.axes.size();
+  for (const auto& pair : machine::gantry_pairs(p))
+    for (std::size_t i = 0; i < count; ++i)
+      if (request.axes[i] == pair.master) request.axes.push_back(pair.slave);
+  for (const auto axis : request.axes)
+    for (const auto& share : {parameter::velocity_feedforward, parameter::acceleration_feedforward})
+      request.trial.push_back({share.number(axis), 0, p.get(share, axis)});
+  auto result = session.run(std::move(request), program);
+  if (result.traces.size() < count) throw std::runtime_error("the drive gave no samples of the motion");
+  result.traces.resize(count);
+  return std::move(result.traces);
 }
 
 double feed_of(const SessionAxis& a, const TestOptions& o, double standard) {

@@ -9,6 +9,9 @@
 
 namespace trunnion::cli {
 
+/// 1/s, of a position loop: the manual's 0.2 mm (deg) of following error at 1000 mm/min (deg/min).
+inline constexpr double least_position_gain = 1000 / servo_analysis::per_minute / 0.2;
+
 struct TestFigure {
   std::string name;
   double value = 0;

@@ -107,7 +107,8 @@ std::optional<std::vector<std::string>> differing_here(const machine_state::Back
 void tell_of_configuration(const machine_state::Backup& backup, const StatePlace& place,
                            const std::optional<std::vector<std::string>>& differing) {
   if (backup.configuration.empty()) {
-    std::printf("The backup is of an older version and has no files of the machine's directory\n");
+    std::printf("The backup is of version %s and has no files of the machine's directory\n",
+                backup.version.c_str());
   } else if (!differing) {
     std::printf("The machine %s is not here: 'trunnion restore --configuration DIR' makes its directory\n",
                 backup.machine.c_str());
@@ -134,8 +135,9 @@ int restore(const Common& common, Restore options) {
     fs::create_directories(fs::path(place.state).parent_path());
   if (!options.configuration.empty()) {
     if (backup.configuration.empty())
-      throw std::runtime_error(options.file +
-                               " is of an older version and has no files of the machine's directory");
+      throw std::runtime_error(options.file + " is of version " + backup.version +
+                               " and has no files of the machine's directory: copy them from the old "
+                               "computer, and restore without --configuration");
     machine_state::make_machine(backup.configuration, options.configuration);
     place.directory = fs::absolute(options.configuration).lexically_normal().string();
   }

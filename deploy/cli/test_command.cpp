@@ -104,8 +104,11 @@ class Runner {
     if (quiet_) return;
     const std::lock_guard lock(mutex_);
     std::printf("[%zu/%zu] %s %-14s %6.2f s  %s%s%s\n", ++done_, tests_.size(),
-                result.passed ? "passed" : "FAILED", result.name.c_str(), result.seconds,
-                result.recording.c_str(), result.passed ? "" : ": ", result.problem.c_str());
+                result.passed    ? "passed"
+                : result.skipped ? "skipped"
+                                 : "FAILED",
+                result.name.c_str(), result.seconds, result.recording.c_str(), result.passed ? "" : ": ",
+                result.problem.c_str());
     std::fflush(stdout);
   }
 
@@ -126,31 +129,37 @@ int run_suite(const Common& common, const SuiteOptions& options) {
       Runner(suite, verification::tests_of(suite, processes_of), common.json).run(options.jobs);
   if (!options.junit.empty()) write(options.junit, verification::junit_of(title, results));
   if (!options.html.empty()) write(options.html, verification::html_of(title, results));
-  const auto passed = static_cast<std::size_t>(std::ranges::count(results, true, &SuiteResult::passed));
+  const auto passed = std::ranges::count(results, true, &SuiteResult::passed);
+  const auto skipped = std::ranges::count(results, true, &SuiteResult::skipped);
   if (common.json) {
     bus::Json list = bus::Json::array();
     for (const auto& result : results)
       list.push_back({{"recording", result.recording},
                       {"name", result.name},
                       {"passed", result.passed},
+                      {"skipped", result.skipped},
                       {"seconds", result.seconds},
                       {"problem", result.problem},
                       {"report", result.report}});
-    std::cout << bus::text_of({{"title", title}, {"passed", passed}, {"tests", list}}, 2) << "\n";
+    std::cout << bus::text_of({{"title", title}, {"passed", passed}, {"skipped", skipped}, {"tests", list}},
+                              2)
+              << "\n";
   } else {
-    std::printf("%zu of %zu verifications as recorded\n", passed, results.size());
+    const auto more = skipped == 0 ? "" : ", " + std::to_string(skipped) + " skipped";
+    std::printf("%td of %zu verifications as recorded%s\n", passed, results.size(), more.c_str());
   }
-  return passed == results.size() ? 0 : 1;
+  return verification::is_passed(results) ? 0 : 1;
 }
 
 }  // namespace
 
 void add_test_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<SuiteOptions>();
-  auto* command =
-      add_command(app, common, "test",
-                  "Verify the services of a list of recordings (docs/recordings.md); status 0: all are equal",
-                  [&common, options] { return run_suite(common, *options); });
+  auto* command = add_command(
+      app, common, "test",
+      "Verify the services of a list of recordings (docs/recordings.md); status 0: all are equal, and what "
+      "a recording has nothing for is skipped",
+      [&common, options] { return run_suite(common, *options); });
   command->add_option("suite", options->suite, "The list as YAML")->required()->check(CLI::ExistingFile);
   command->add_option("--jobs", options->jobs, "Verifications at a time (default: the number of processors)")
       ->check(CLI::Range(1, 64));

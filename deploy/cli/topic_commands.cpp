@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // topic list|echo|hz, record
-#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,6 +18,7 @@
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
 #include "service/network.hpp"
+#include "standard_output.hpp"
 #include "text/quantity.hpp"
 
 namespace trunnion::cli {
@@ -41,12 +41,6 @@ int list_topics(const Common& common) {
   }
   if (common.json) std::cout << all.dump(2) << "\n";
   return 0;
-}
-
-// A machine at rest sends nothing, so that no write would tell that the reader of a pipe has gone.
-bool output_is_read() {
-  pollfd output{STDOUT_FILENO, 0, 0};
-  return poll(&output, 1, 0) < 0 || (output.revents & POLLERR) == 0;
 }
 
 int echo(const Common& common, const std::string& name, int count, double timeout) {
@@ -114,6 +108,7 @@ constexpr std::array recorder_options{
         "--free-space",
         "MB that must be free on the disk for a start; below it a warning, below a tenth of it the "
         "end (default: 200; 0: not checked)"},
+    RecorderOption{"--compression", "Of the chunks in the file: none or zstd (default: zstd)"},
     RecorderOption{"--part-size",
                    "MiB after which a new part begins: FILE-0001 and so on, each whole in itself"},
     RecorderOption{"--part-time", "Seconds after which a new part begins"},

@@ -8,12 +8,13 @@
 #include "bus/json.hpp"
 #include "commands.hpp"
 #include "verification/verify.hpp"
+#include "verification/verify_plan.hpp"
 
 namespace trunnion::cli {
 namespace {
 
-int run_verification(const Common& common, verification::VerifyOptions options,
-                     const std::vector<std::string>& tolerances, const std::vector<std::string>& required) {
+int verify_service(const Common& common, verification::VerifyOptions options,
+                   const std::vector<std::string>& tolerances, const std::vector<std::string>& required) {
   options.domain = common.domain;
   for (const auto& text : tolerances) verification::add_tolerance(options.comparison, text);
   const auto result = verification::verify(options);
@@ -23,6 +24,7 @@ int run_verification(const Common& common, verification::VerifyOptions options,
     auto json = verification::json_of(result.difference);
     json["equal"] = result.equal();
     json["problem"] = result.problem;
+    json["parameters"] = result.parameters;
     json["cut_off"] = result.cut_off;
     json["inputs"] = result.inputs;
     json["outputs"] = result.outputs;
@@ -39,6 +41,7 @@ int run_verification(const Common& common, verification::VerifyOptions options,
     return status;
   }
   std::cout << verification::text_of(result.difference, "recorded", "written now");
+  if (!result.parameters.empty()) std::cout << "parameters: " << result.parameters << "\n";
   if (!result.problem.empty()) std::cout << "problem: " << result.problem << "\n";
   if (!result.cut_off.empty()) std::printf("verified as far as it goes: %s\n", result.cut_off.c_str());
   std::printf("%s: %s; %zu messages in, %zu out", options.service.c_str(),
@@ -54,6 +57,18 @@ int run_verification(const Common& common, verification::VerifyOptions options,
     std::printf("%s: %s\n", options.service.c_str(), text_of(result.features).c_str());
   for (const auto& name : missing) std::printf("required, and not in the recording: %s\n", name.c_str());
   return status;
+}
+
+// In JSON it is told apart from a failure, unless features are required: those are not in the recording.
+int run_verification(const Common& common, const verification::VerifyOptions& options,
+                     const std::vector<std::string>& tolerances, const std::vector<std::string>& required) {
+  try {
+    return verify_service(common, options, tolerances, required);
+  } catch (const verification::NothingToVerify& nothing) {
+    if (!common.json || !required.empty()) throw;
+    std::cout << bus::text_of({{"equal", false}, {"skipped", nothing.what()}}, 2) << "\n";
+    return 1;
+  }
 }
 
 }  // namespace
@@ -74,8 +89,12 @@ void add_verify_command(CLI::App& app, Common& common) {
   command->add_option("--exec", options->executable, "Executable to verify (default: the one of this build)");
   command->add_option("--vendor", options->vendor, "DDS vendor of the service")
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
-  command->add_option("--machine", options->machine,
-                      "Name or directory of the machine (default: the one the recording names)");
+  command->add_option(
+      "--machine", options->machine,
+      "Name or directory of the machine with its programs (default: the one the recording names); "
+      "parameters are the recording's");
+  command->add_flag("--machine-parameters", options->machine_parameters,
+                    "Use the parameters of the machine's directory instead of the recording's");
   command->add_option("--channel", options->channel, "Which channel, for --service channel")
       ->check(CLI::Range(0, 31));
   command

@@ -62,7 +62,10 @@ void StateDocument::apply(const idl::service::Cluster& cluster) {
   has_cluster_ = true;
 }
 
-void StateDocument::apply(const idl::channel::ChannelState& state) { channels_[state.channel] = state; }
+void StateDocument::apply(const idl::channel::ChannelState& state) {
+  channels_[state.channel] = state;
+  if (has_feedback_) run_times_[state.channel].observe(state, feedback_.tick);
+}
 
 void StateDocument::apply(const idl::plc::Outputs& outputs) {
   auto channels = Json::array();
@@ -99,6 +102,8 @@ void StateDocument::apply(const idl::stream::FeedbackFrame& frame) {
 void StateDocument::apply(const idl::measurement::MeasurementState& state) {
   measurement_ = bus::to_json(state);
 }
+
+void StateDocument::set_title(std::string title) { title_ = std::move(title); }
 
 void StateDocument::set_drive_axes(std::vector<std::uint16_t> axes) { drive_axes_ = std::move(axes); }
 
@@ -141,7 +146,11 @@ Json StateDocument::services(double now) const {
   };
   for (const auto& [instance, known] : services_) {
     const auto wanted = expected.find(instance);
-    add(instance, known, wanted != expected.end() ? wanted->second : nullptr);
+    const bool planned = wanted != expected.end();
+    // Another process has its place, after a swap say: its silence is no fault. One of another contract has
+    // only announced itself, and is shown.
+    if (!planned && has_cluster_ && known.beating && now - known.heard >= heartbeat_timeout) continue;
+    add(instance, known, planned ? wanted->second : nullptr);
   }
   for (const auto& [instance, wanted] : expected)
     if (!services_.contains(instance)) add(instance, nothing, wanted);
@@ -179,18 +188,28 @@ Json StateDocument::axes() {
   return json;
 }
 
+Json StateDocument::run_times() {
+  auto json = Json::object();
+  if (!has_feedback_) return json;
+  for (const auto& [number, state] : channels_) {
+    auto& time = run_times_[number];
+    time.observe(state, feedback_.tick);
+    json[std::to_string(number)] = {{"ticks", time.ticks()}, {"partial", time.partial()}};
+  }
+  return json;
+}
+
 Json StateDocument::document(double now) {
   auto json = Json::object();
   if (has_cluster_)
-    json["cluster"] = {{"domain", cluster_.domain},
-                       {"machine", cluster_.machine},
-                       {"ready", cluster_.ready},
-                       {"virtual_time", cluster_.virtual_time},
-                       {"lead", cluster_.lead}};
+    json["cluster"] = {
+        {"domain", cluster_.domain}, {"machine", cluster_.machine},           {"title", title_},
+        {"ready", cluster_.ready},   {"virtual_time", cluster_.virtual_time}, {"lead", cluster_.lead}};
   json["services"] = services(now);
   json["alarms"] = alarms();
   auto& channels = json["channels"] = Json::object();
   for (const auto& [number, state] : channels_) channels[std::to_string(number)] = bus::to_json(state);
+  json["run_times"] = run_times();
   json["axes"] = axes();
   if (has_feedback_)
     json["drive"] = {{"executed", feedback_.first + feedback_.count},

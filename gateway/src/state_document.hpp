@@ -9,6 +9,7 @@
 
 #include "bus/json.hpp"
 #include "contracts/types.hpp"
+#include "src/run_time.hpp"
 #include "src/trace.hpp"
 
 namespace trunnion::gateway {
@@ -27,6 +28,8 @@ class StateDocument {
   void apply(const idl::plc::Outputs& outputs);
   void apply(const idl::measurement::MeasurementState& state);
   void apply(const idl::stream::FeedbackFrame& frame);
+  /// Of the machine, as machine.yaml has it.
+  void set_title(std::string title);
   /// Logical axis number of each column of the drive's feedback.
   void set_drive_axes(std::vector<std::uint16_t> axes);
   void set_revision(const char* what, std::uint64_t revision);
@@ -58,11 +61,14 @@ class StateDocument {
   bus::Json services(double now) const;
   bus::Json alarms() const;
   bus::Json axes();
+  bus::Json run_times();
 
   std::map<std::uint32_t, Known> services_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Raised> alarms_;
   std::map<std::uint16_t, idl::channel::ChannelState> channels_;
+  std::map<std::uint16_t, RunTime> run_times_;
   idl::service::Cluster cluster_;
+  std::string title_;
   bool has_cluster_ = false;
   bus::Json plc_, measurement_, revisions_ = bus::Json::object();
   idl::stream::FeedbackFrame feedback_;

@@ -104,6 +104,13 @@ TEST(StateDocument, AnAlarmKeepsTheTimeItWasFirstSeenAndGoesWhenItIsOver) {
   EXPECT_TRUE(document.document(2)["alarms"].empty());
 }
 
+TEST(StateDocument, TheClusterHasTheTitleOfTheMachine) {
+  StateDocument document;
+  document.set_title("AC trunnion machine");
+  document.apply(idl::service::Cluster{});
+  EXPECT_EQ(document.document(1)["cluster"]["title"], "AC trunnion machine");
+}
+
 TEST(StateDocument, AServiceIsSilentWithoutHeartbeatAndAbsentWhenExpectedButNeverHeard) {
   StateDocument document;
   document.apply(beat(4, 100), 10.0);
@@ -113,6 +120,9 @@ TEST(StateDocument, AServiceIsSilentWithoutHeartbeatAndAbsentWhenExpectedButNeve
   expected.service = "plc";
   expected.restarts = 2;
   cluster.services.push_back(expected);
+  auto other = expected;
+  other.instance = 4;
+  cluster.services.push_back(other);
   document.apply(cluster);
   auto json = document.document(10.0 + heartbeat_timeout / 2)["services"];
   EXPECT_EQ(json["4"]["alive"], true);
@@ -123,6 +133,24 @@ TEST(StateDocument, AServiceIsSilentWithoutHeartbeatAndAbsentWhenExpectedButNeve
   EXPECT_EQ(json["9"]["restarts"], 2);
   json = document.document(10.0 + 2 * heartbeat_timeout)["services"];
   EXPECT_EQ(json["4"]["alive"], false);
+}
+
+TEST(StateDocument, AProcessThatASwapHasReplacedIsShownUntilItIsSilent) {
+  StateDocument document;
+  document.apply(beat(4, 100), 10.0);
+  idl::service::Cluster cluster{};
+  idl::service::ClusterService successor{};
+  successor.instance = 12;
+  cluster.services.push_back(successor);
+  document.apply(cluster);
+  document.apply(beat(12, 101), 10.0);
+  auto json = document.document(10.0)["services"];
+  EXPECT_EQ(json["4"]["alive"], true);
+  EXPECT_EQ(json["4"]["expected"], false);
+  document.apply(beat(12, 101), 10.0 + 2 * heartbeat_timeout);
+  json = document.document(10.0 + 2 * heartbeat_timeout)["services"];
+  EXPECT_FALSE(json.contains("4"));
+  EXPECT_EQ(json["12"]["alive"], true);
 }
 
 TEST(StateDocument, TheAlarmsOfADeadProcessGoWhenItsSuccessorBeats) {
@@ -146,6 +174,9 @@ TEST(StateDocument, AnotherContractIsShown) {
   announcement.contract = "theirs";
   document.apply(announcement);
   EXPECT_EQ(document.document(0)["services"]["1"]["contract_match"], false);
+  document.apply(idl::service::Cluster{});
+  EXPECT_EQ(document.document(2 * heartbeat_timeout)["services"]["1"]["contract_match"], false)
+      << "also where the launcher does not name it, which nobody hears beat";
   announcement.contract = bus::contract_of("drive");
   document.apply(announcement);
   EXPECT_EQ(document.document(0)["services"]["1"]["contract_match"], true);
@@ -159,6 +190,51 @@ idl::stream::FeedbackFrame feedback() {
   frame.commanded = {1, 10, 2, 20};
   frame.actual = {0.5, 10, 1.9, 20.25};
   return frame;
+}
+
+using idl::channel::Mode, idl::channel::RunState;
+
+/// What is shown of the run of channel 0 when the drive is at `tick` and the channel is as given.
+Json run_time_at(StateDocument& document, std::uint64_t tick, RunState state, Mode mode = Mode::AUTO,
+                 bool suspended = false) {
+  idl::stream::FeedbackFrame frame{};
+  frame.tick = tick;
+  document.apply(frame);
+  idl::channel::ChannelState one{};
+  one.state = state;
+  one.mode = mode;
+  one.suspended = suspended;
+  document.apply(one);
+  return document.document(1)["run_times"]["0"];
+}
+
+TEST(StateDocument, TheTimeOfAProgramCountsFromItsStartToItsEndWithHoldsAndMdiInBetween) {
+  StateDocument document;
+  run_time_at(document, 1000, RunState::IDLE);
+  run_time_at(document, 1100, RunState::RUNNING);
+  run_time_at(document, 1500, RunState::HELD);
+  run_time_at(document, 2000, RunState::IDLE, Mode::MDI, true);
+  auto time = run_time_at(document, 2600, RunState::RUNNING);
+  EXPECT_EQ(time["ticks"], 1500);  // 2600 - 1100
+  EXPECT_EQ(time["partial"], false);
+  EXPECT_EQ(run_time_at(document, 2700, RunState::IDLE)["ticks"], 1600);  // 2700 - 1100
+  EXPECT_EQ(run_time_at(document, 9000, RunState::IDLE)["ticks"], 1600);
+  EXPECT_EQ(run_time_at(document, 9100, RunState::RUNNING, Mode::MDI)["ticks"], 1600);
+  time = run_time_at(document, 9200, RunState::RUNNING);
+  EXPECT_EQ(time["ticks"], 0);
+  EXPECT_EQ(time["partial"], false);
+}
+
+TEST(StateDocument, AProgramThatRanAlreadyOrADriveThatCountsFromZeroAgainGivesAPartOfTheTime) {
+  StateDocument document;
+  run_time_at(document, 500, RunState::RUNNING);
+  auto time = run_time_at(document, 800, RunState::RUNNING);
+  EXPECT_EQ(time["ticks"], 300);  // 800 - 500
+  EXPECT_EQ(time["partial"], true);
+  run_time_at(document, 10, RunState::RUNNING);
+  time = run_time_at(document, 50, RunState::RUNNING);
+  EXPECT_EQ(time["ticks"], 40);  // 50 - 10
+  EXPECT_EQ(time["partial"], true);
 }
 
 TEST(StateDocument, ColumnsOfTheFeedbackGoToTheLogicalAxesOfTheDrive) {

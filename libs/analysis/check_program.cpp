@@ -22,6 +22,12 @@ void print_alarm(const language::Alarm& alarm, const TextName& name, std::ostrea
   }
 }
 
+void print_repetition(const language::EndlessLoop& loop, const TextName& name, std::ostream& out) {
+  if (loop.line() == 0) return;
+  out << name(0) << ":" << loop.line() << ": the program repeats for ever from line " << loop.line()
+      << "; it was counted up to its return there\n";
+}
+
 /// Behind the line's number.
 std::string text_of(const std::string& error) { return error.substr(error.find(' ')); }
 
@@ -61,6 +67,8 @@ bool check_program(language::TextSource& text, language::Environment& environmen
   // Too large for the stack of a small thread.
   const auto interpreter = std::make_unique<language::Interpreter>(environment, interpreting);
   const auto lines = std::make_unique<JsonLines>(out, environment.axes());
+  language::EndlessLoop loop(options.travel_error != nullptr);
+  interpreter->watch_loops(&loop);
   interpreter->start(text, start, environment.power_on());
   MotionTracker tracker(environment, *interpreter, start);
   Summary summary(environment.axes());
@@ -98,6 +106,7 @@ bool check_program(language::TextSource& text, language::Environment& environmen
   const bool good = step == Step::end;
   if (!options.json_lines) {
     summary.print(out, interpreter->blocks());
+    print_repetition(loop, name, out);
     if (!error.empty())
       out << name(where) << ":" << command.line << ": " << number << ":" << text_of(error) << "\n";
     else if (!good)

@@ -24,9 +24,10 @@ struct CheckOptions {
 /// Names the text of Command::program for a reader: a path.
 using TextName = std::function<std::string(std::uint32_t program)>;
 
-/// Runs `text` from machine position `start` to its end, where M99 in the main program is one, and writes to
-/// `out`. True when there was no alarm and every motion stays within the travel; the first one that does not
-/// ends it. A move to a skip signal ends at its target.
+/// Runs `text` from machine position `start` to its end, where M99 in the main program is one, and so is the
+/// return of a program that repeats for ever; and writes to `out`. True when there was no alarm and every
+/// motion stays within the travel; the first one that does not ends it. A move to a skip signal ends at its
+/// target.
 bool check_program(language::TextSource& text, language::Environment& environment,
                    const language::AxisValues& start, const CheckOptions& options, const TextName& name,
                    std::ostream& out);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double highest_tool = 65535;
 constexpr double longest = 100000;  // mm
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -42,7 +43,8 @@ ToolRows read_tool_rows(const std::string& text, const std::string& file) {
   ToolRows rows;
   std::size_t line_number = 0;
   bool names_allowed = true;
-  for (std::size_t from = 0; from < text.size();) {
+  for (std::size_t from = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+       from < text.size();) {
     const std::size_t end = std::min(text.find('\n', from), text.size());
     const std::string_view line = trimmed(std::string_view(text).substr(from, end - from));
     from = end + 1;
@@ -54,11 +56,12 @@ ToolRows read_tool_rows(const std::string& text, const std::string& file) {
     if (line.empty() || line.front() == '#') continue;
     const auto fields = columns(line);
     const auto tool = number(fields[0]);
-    const bool names = names_allowed && !tool;
+    // A row that is no tool's has a number all the same.
+    const bool names = names_allowed && line.find_first_of("0123456789") == std::string_view::npos;
     names_allowed = false;
     if (names) continue;
     if (!tool || *tool < 1 || *tool > highest_tool || *tool != std::floor(*tool))
-      fail("tool number must be a whole number 1 to 65535");
+      fail(std::string("tool number must be a whole number 1 to 65535, not '").append(fields[0]).append("'"));
     if (fields.size() < 2 || fields.size() > 3) fail("expected number,length,radius");
     const auto length = number(fields[1]);
     const auto radius = fields.size() == 3 ? number(fields[2]) : 0.0;

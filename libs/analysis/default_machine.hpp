@@ -18,7 +18,8 @@ struct ToolRow {
 using ToolRows = std::map<std::uint16_t, ToolRow>;
 
 /// Reads CSV rows `number,length,radius` (radius may be left out; empty lines, lines that begin with # and a
-/// first line of column names are passed over). Throws std::runtime_error with file:line.
+/// first line of column names, which has no digit, are passed over). Throws std::runtime_error with
+/// file:line.
 ToolRows read_tool_rows(const std::string& text, const std::string& file);
 
 class DefaultMachine : public language::Environment {

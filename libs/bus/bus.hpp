@@ -79,6 +79,25 @@ class Writer {
 struct Refusals {
   std::uint64_t count = 0;
   std::string newest;  ///< why the newest was: field and value
+  std::string writer;  ///< who has written the first that is not told yet; empty: all are told
+  Backend* backend = nullptr;
+  WriterId known{};        ///< the writer that was asked for last
+  std::string known_text;  ///< what it is; empty: not known for good
+
+  /// Asks for the writer once until it is told, and not again when it is the same: a flood of messages must
+  /// not cost more than it is, and asking can take longer than a cycle.
+  void add(const std::string& why, const WriterId& from) {
+    ++count, newest = why;
+    if (!writer.empty()) return;
+    if (known_text.empty() || known != from) {
+      const auto origin = backend->origin_of(from);
+      writer = to_text(origin);
+      known = from;
+      known_text = origin.pid.empty() ? "" : writer;
+    } else {
+      writer = known_text;
+    }
+  }
 };
 
 template <class T>
@@ -94,7 +113,7 @@ class Reader {
       if (newest_ != nullptr) *newest_ = std::max(*newest_, info_.source_timestamp);
       if (decode(buffer_, value, &why_)) return true;
       ++undecodable_;
-      if (refusals_ != nullptr) ++refusals_->count, refusals_->newest = why_;
+      if (refusals_ != nullptr) refusals_->add(why_, info_.writer);
     }
     return false;
   }
@@ -132,7 +151,7 @@ class Bus {
   template <class T>
   Reader<T> reader(const Topic<T>& topic) {
     return Reader<T>(backend_->reader(describe(topic), reader_qos(topic.qos), &signal_), &taken_[topic.name],
-                     &refusals_[topic.name]);
+                     &refusals_of(topic.name));
   }
   Backend& backend() { return *backend_; }
   Signal& signal() { return signal_; }
@@ -144,12 +163,20 @@ class Bus {
   /// Of each topic that is read what was refused, by the topic's name.
   const std::map<std::string, Refusals>& refusals() const { return refusals_; }
   /// A message of this topic cannot be what its writer has to write; `why` names field and value.
-  void refuse(const std::string& topic, const std::string& why) {
-    auto& refusals = refusals_[topic];
-    ++refusals.count, refusals.newest = why;
+  void refuse(const std::string& topic, const std::string& why, const WriterId& writer) {
+    refusals_of(topic).add(why, writer);
+  }
+  /// Whoever writes from now on is asked for again.
+  void refusals_told() {
+    for (auto& [topic, refusals] : refusals_) refusals.writer.clear();
   }
 
  private:
+  Refusals& refusals_of(const std::string& topic) {
+    auto& refusals = refusals_[topic];
+    refusals.backend = backend_.get();
+    return refusals;
+  }
   // Frames can be recorded from memory, unless the cluster is secured: then certificates decide who reads.
   std::unique_ptr<SharedHistory> share(QosKind kind, EndpointQos& qos) const;
 

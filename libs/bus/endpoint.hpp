@@ -12,6 +12,7 @@
 
 #include "bus/codec.hpp"
 #include "bus/topic.hpp"
+#include "bus/writer_origin.hpp"
 
 namespace trunnion::bus {
 
@@ -128,6 +129,11 @@ class Backend {
                                             Signal* signal) = 0;
   /// False when nothing has changed since the last call. Otherwise `writers` are all that are known now.
   virtual bool discover(std::vector<DiscoveredWriter>& writers) = 0;
+  /// Where the writer of a sample is (SampleInfo::writer): what its process has told of itself.
+  virtual WriterOrigin origin_of(const WriterId& writer) = 0;
+  /// Takes in what was heard of others since the last call, for who calls neither of the two for a long time:
+  /// every process that comes or goes would be kept as messages. For the thread that calls them.
+  virtual void keep_up() {}
 };
 
 /// Throws std::runtime_error with the vendor's reason.

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "calibration/circle_corrections.hpp"
 #include "calibration/measurement_file.hpp"
 
 namespace trunnion::calibration {
@@ -147,12 +148,8 @@ class Writer {
     return given != nullptr && static_cast<unsigned long>(*given) / 10 % 10 == 1;
   }
 
-  // As the manual counts: of type M the head axis first, otherwise from the machine's base outwards.
   void axes() {
-    auto vectors = metrology::root_vectors(machine_.model);
-    std::stable_sort(vectors.begin(), vectors.end(), [](const auto& a, const auto& b) {
-      return !metrology::in_table(a.slot) && metrology::in_table(b.slot);
-    });
+    const auto vectors = counted_vectors(machine_.model);
     line(0, "axes: {");
     for (std::size_t i = 0; i < std::min<std::size_t>(vectors.size(), 2); ++i) {
       const unsigned first = i == 0 ? first_axis : second_axis;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/evaluation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -23,6 +24,14 @@ std::string line(const char* format, Values... values) {
   return text;
 }
 
+// The same place of every axis: 270 deg is -90 deg.
+bool same_pose(const Angles& a, const Angles& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    most = std::max(most, std::abs(std::remainder(a[k] - b[k], 360.0)));
+  return most < 1e-6;
+}
+
 class Evaluation {
  public:
   Evaluation(const MeasurementInputs& in, const MeasuredMachine& machine,
@@ -34,6 +43,7 @@ class Evaluation {
     centres(touched);
     circles();
     vectors();
+    corrections();
     if (in_.reference == Reference::adapt) adapt();
     judge();
     return std::move(result_);
@@ -49,7 +59,7 @@ class Evaluation {
   void centres(const std::vector<TouchedPose>& touched) {
     if (touched.empty()) throw std::runtime_error("no pose was touched");
     const auto initial = pose_name({}, machine_.model);
-    if (pose_name(touched.front().angles, machine_.model) != initial)
+    if (!same_pose(touched.front().angles, {}))
       throw std::runtime_error("the first pose is " + pose_name(touched.front().angles, machine_.model) +
                                "; the measurement begins at the initial pose " + initial);
     result_.ball_diameter = in_.ball_diameter;
@@ -70,13 +80,27 @@ class Evaluation {
   }
 
   std::size_t row_of(const Angles& angles) const {
-    for (std::size_t i = 0; i < measured_.size(); ++i) {
-      double most = 0;
-      for (std::size_t k = 0; k < angles.size(); ++k)
-        most = std::max(most, std::abs(measured_[i].angles[k] - angles[k]));
-      if (most < 1e-6) return i;
-    }
+    // Both ends of a whole turn may be touched: each is its own row.
+    const auto apart = [&](std::size_t i) {
+      double sum = 0;
+      for (std::size_t k = 0; k < angles.size(); ++k) sum += std::abs(measured_[i].angles[k] - angles[k]);
+      return sum;
+    };
+    std::size_t row = measured_.size();
+    for (std::size_t i = 0; i < measured_.size(); ++i)
+      if (same_pose(measured_[i].angles, angles) && (row == measured_.size() || apart(i) < apart(row)))
+        row = i;
+    if (row < measured_.size()) return row;
     throw std::runtime_error("pose " + pose_name(angles, machine_.model) + " is missing among the touches");
+  }
+
+  // Point `i` of an axis.
+  Angles angles_at(const AxisRange& range, std::size_t i) const {
+    Angles angles{};
+    for (const auto& other : in_.axes) angles[other.angle] = range.other;
+    angles[range.angle] = range.start + (range.end - range.start) * static_cast<double>(i) /
+                                            static_cast<double>(range.points - 1);
+    return angles;
   }
 
   void circles() {
@@ -87,10 +111,7 @@ class Evaluation {
       axis.angle = range.angle;
       std::vector<metrology::TurnedCentre> turned;
       for (std::size_t i = 0; i < range.points; ++i) {
-        Angles angles{};
-        for (const auto& other : in_.axes) angles[other.angle] = range.other;
-        angles[range.angle] = range.start + (range.end - range.start) * static_cast<double>(i) /
-                                                static_cast<double>(range.points - 1);
+        const auto angles = angles_at(range, i);
         axis.rows.push_back(row_of(angles));
         turned.push_back({angles[range.angle], directions * measured_[axis.rows.back()].centre});
       }
@@ -158,11 +179,14 @@ class Evaluation {
                    "a larger "
                    "circle, more points, or directions: report",
                    "ABCUVW"[axis.angle], known, least_known_direction));
+    // Without the directions the inclination of an axis is in the residuals; it is no error of the touches.
+    if (real.freedom > 0)
+      options.touch_deviation = real.touch_deviation, options.touch_freedom = real.freedom;
     const auto written = in_.write_directions ? real : fit(start, options, false);
     result_.after = written.parameters;
     result_.sphere = written.sphere;
-    result_.touch_deviation = written.touch_deviation;
-    result_.freedom = written.freedom;
+    result_.touch_deviation = real.freedom > 0 ? real.touch_deviation : written.touch_deviation;
+    result_.freedom = real.freedom > 0 ? real.freedom : written.freedom;
     result_.condition = real.condition;
     result_.not_observed = real.not_observed;
     for (std::size_t i = 0; i < result_.poses.size(); ++i) {
@@ -178,6 +202,7 @@ class Evaluation {
         change.slot = vector.slot;
         change.before = before.offset + before.correction;
         change.after = written.axes[i].offset.value;
+        change.with_directions = real.axes[i].offset.value;
         change.expanded = written.axes[i].offset.expanded;
         change.observed = written.axes[i].offset.observed;
         change.direction_before = before.direction.normalized();
@@ -185,6 +210,19 @@ class Evaluation {
         change.direction_expanded = real.axes[i].direction.expanded;
         result_.vectors.push_back(change);
       }
+  }
+
+  void corrections() {
+    std::map<std::size_t, std::vector<CircleCentre>> circles_of;
+    for (std::size_t k = 0; k < in_.axes.size(); ++k)
+      for (std::size_t i = 0; i < in_.axes[k].points; ++i)
+        circles_of[in_.axes[k].angle].push_back(
+            {angles_at(in_.axes[k], i), result_.poses[result_.axes[k].rows[i]].difference});
+    result_.corrections = circle_corrections(machine_.model, in_, measured_.front().centre, circles_of);
+    for (auto& one : result_.corrections)
+      for (const auto& vector : metrology::root_vectors(machine_.model))
+        if (vector.angle == one.angle)
+          one.all_poses = one.before + value_of(vector, result_.after) - value_of(vector, result_.before);
   }
 
   // The head's end is where the reference had the sphere: what is left over is the chain's open end.

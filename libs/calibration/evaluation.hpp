@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/circle_corrections.hpp"
 #include "calibration/touches.hpp"
 #include "metrology/axis_of_rotation.hpp"
 #include "metrology/kinematic_fit.hpp"
@@ -32,7 +33,9 @@ struct VectorChange {
   std::string name;  ///< "A", "B" ...: the rotary axis which the vector places
   metrology::Slot slot = metrology::Slot::table_2;
   Vec3 before = Vec3::Zero(), after = Vec3::Zero();  ///< mm, offset with correction
-  Vec3 expanded = Vec3::Zero();                      ///< mm, 95 %
+  /// mm: what belongs to `direction_after`, other than `after` where directions are only reported.
+  Vec3 with_directions = Vec3::Zero();
+  Vec3 expanded = Vec3::Zero();  ///< mm, 95 %, of `after`
   std::array<bool, 3> observed{true, true, true};
   Vec3 direction_before = Vec3::UnitZ(), direction_after = Vec3::UnitZ();  ///< ideal and real unit vector
   Vec3 direction_expanded = Vec3::Zero();
@@ -42,6 +45,7 @@ struct KinematicsResult {
   std::vector<PoseResult> poses;
   std::vector<AxisResult> axes;
   std::vector<VectorChange> vectors;
+  std::vector<ChainCorrection> corrections;  ///< the same as the manual has them; see circle_corrections()
   metrology::ChainParameters before, after;  ///< after: what is to be written
   double ball_diameter = 0;                  ///< mm, effective: calibrated, or that of the inputs
   double touch_deviation = 0;                ///< mm, standard deviation of a touch by the residuals

@@ -12,7 +12,6 @@ namespace {
 
 using truth::Limits;
 
-constexpr std::string_view rotary_letters = "ABCUVW";
 constexpr Limits place{-1e5, 1e5}, any_angle{-1e6, 1e6};
 
 ReferenceMeasurement read_reference(const truth::TruthReader& reader, const YAML::Node& map) {

@@ -12,8 +12,6 @@
 namespace trunnion::calibration {
 namespace {
 
-constexpr const char* letters[]{"A", "B", "C", "U", "V", "W"};
-
 std::string number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.10g", value);
@@ -53,6 +51,11 @@ std::string frame_fault(const geometry::Mat3& directions) {
 
 }  // namespace
 
+double standoff(const MeasurementInputs& in) {
+  constexpr double beyond_confidence = 1;  // mm
+  return std::max(in.measuring_path, in.confidence_range + beyond_confidence);
+}
+
 MeasuredMachine measured_machine(const std::string& name, const machine::Parameters& delivered,
                                  const machine::Parameters& active, std::uint16_t channel) {
   MeasuredMachine measured;
@@ -69,8 +72,9 @@ std::string fault_of(const MeasurementInputs& in, const MeasuredMachine& machine
   if (present.empty() || present.size() > 2)
     return machine.name + " has " + std::to_string(present.size()) +
            " rotary axes in its transformation: 1 or 2 can be measured";
-  if (!in.transformation.empty() && !machine.structure.empty() && in.transformation != machine.structure)
-    return "transformation " + in.transformation + ": the machine has " + machine.structure;
+  if (!in.transformation.empty() && in.transformation != transformation_name)
+    return "transformation " + in.transformation + " is not known: the channel has " +
+           std::string(transformation_name);
   if (auto fault = frame_fault(machine.model.linear_direction); !fault.empty()) return fault;
   if (auto fault = plane_fault(in.plane, machine.model.tool_direction); !fault.empty()) return fault;
   if (!(in.positioning_feed > in.first_touch_feed && in.first_touch_feed > in.measuring_feed))
@@ -81,7 +85,7 @@ std::string fault_of(const MeasurementInputs& in, const MeasuredMachine& machine
     return std::to_string(in.axes.size()) + " rotary axes are given, the machine has " +
            std::to_string(present.size());
   for (const auto& range : in.axes) {
-    const std::string name = std::string("axis ") + letters[range.angle];
+    const std::string name = std::string("axis ") + rotary_letters[range.angle];
     if (std::find(present.begin(), present.end(), range.angle) == present.end())
       return name + ": the transformation has no such rotary axis";
     if (std::count_if(in.axes.begin(), in.axes.end(), [&](const auto& r) { return r.angle == range.angle; }) >
@@ -104,8 +108,8 @@ std::string fault_of(const MeasurementInputs& in, const MeasuredMachine& machine
       if (other == range.angle) continue;
       const auto& limits = machine.outline.axes[3 + other];
       if (!limits.present) continue;
-      if (auto fault =
-              outside(name + ": position of " + letters[other], range.other, limits.low, limits.high, "deg");
+      if (auto fault = outside(name + ": position of " + rotary_letters[other], range.other, limits.low,
+                               limits.high, "deg");
           !fault.empty())
         return fault;
     }
@@ -131,7 +135,6 @@ std::optional<ProbeAndSphere> probe_and_sphere(const std::optional<truth::TouchP
 
 MeasurementInputs default_inputs(const MeasuredMachine& machine) {
   MeasurementInputs in;
-  in.transformation = machine.structure;
   if (const auto& gauges = machine.gauges) {
     in.probe_length = gauges->probe_length, in.ball_diameter = gauges->ball_diameter;
     in.sphere = gauges->sphere, in.sphere_diameter = gauges->sphere_diameter;

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "metrology/chain_vectors.hpp"
@@ -21,6 +22,12 @@ enum class Plane { g17, g18, g19, active };
 enum class Mode { correct, only_correct, measure_only };
 enum class Positioning { paraxial, circular };
 enum class Reference { without, measure, adapt };
+
+/// The name of the only transformation that a channel has.
+inline constexpr std::string_view transformation_name = "TOOL_CARR_KIN";
+
+/// By the index of a rotary axis, AxisRange::angle.
+inline constexpr std::string_view rotary_letters = "ABCUVW";
 
 /// How one rotary axis is measured.
 struct AxisRange {
@@ -41,7 +48,7 @@ struct ReferenceMeasurement {
 
 struct MeasurementInputs {
   Plane plane = Plane::active;
-  std::string transformation;  ///< empty: that of the channel
+  std::string transformation;  ///< transformation_name, or empty: that of the channel
   Mode mode = Mode::measure_only;
   bool calibrate_probe = false;
   Positioning positioning = Positioning::circular;
@@ -78,6 +85,10 @@ struct MeasurementInputs {
   bool transformation_active = false;  ///< it may be active; otherwise it is switched off and restored
 };
 
+/// mm between ball and expected sphere where a touch begins and on the way there: the measuring path, or 1 mm
+/// more than the sphere may be beside its place.
+double standoff(const MeasurementInputs& inputs);
+
 /// Probe and sphere as they were set up.
 struct ProbeAndSphere {
   double probe_length = 0, ball_diameter = 6;  ///< mm, as in MeasurementInputs
@@ -95,7 +106,6 @@ struct MeasuredMachine {
   std::string name;
   ChainParameters model;  ///< by which the control moves
   truth::MachineOutline outline;
-  std::string structure;  ///< name of its chain
   std::optional<ProbeAndSphere> gauges = {};
 };
 

@@ -11,6 +11,32 @@ namespace {
 
 constexpr double step = 5;          // deg, of a proposed range
 constexpr double least_range = 10;  // deg
+constexpr double margin = 0.02;     // mm: a body is in contact before its clearance is used up
+// mm from the confidence range on a way. The approach position, which is 1 mm from it at least, must be free.
+constexpr double beside_confidence = 0.5;
+
+// Where a touch ends, a quarter of the measuring path behind the expected surface, the stylus is nearer to
+// the sphere than the surface of the ball was by what the ball is thicker.
+void check_measuring_path(const collision::BodySet& set, const MeasurementInputs& in) {
+  double ball = 0, stylus = 0;
+  for (const auto& body : set.bodies) {
+    if (!body.tool) continue;
+    if (const auto* sphere = std::get_if<collision::Sphere>(&body.shape)) ball = sphere->radius;
+    const auto* cylinder = std::get_if<collision::Cylinder>(&body.shape);
+    if (cylinder != nullptr && body.name == collision::stylus_name) stylus = cylinder->radius;
+  }
+  if (ball == 0 || stylus == 0) return;
+  // path / 4 + min(path / 4, clearance) <= spare
+  const double spare = ball - stylus - margin;
+  const double longest = std::max({0.0, 2 * spare, 4 * (spare - set.clearance)});
+  if (in.measuring_path <= longest) return;
+  throw std::runtime_error("measuring_path_mm " + text::quantity(in.measuring_path, "mm") + " is above " +
+                           text::quantity(longest, "mm") + ": with a ball of " +
+                           text::quantity(2 * ball, "mm") + " the stylus of " +
+                           text::quantity(2 * stylus, "mm") +
+                           " would come too near to the sphere at the end of a touch; shorten the measuring "
+                           "path or use a larger ball");
+}
 
 void add_probe_and_sphere(collision::MachineBodies& bodies, const std::vector<truth::Solid>& solids,
                           const std::optional<truth::TouchProbeTruth>& given, const MeasurementInputs& in) {
@@ -22,6 +48,7 @@ void add_probe_and_sphere(collision::MachineBodies& bodies, const std::vector<tr
   if (std::none_of(solids.begin(), solids.end(),
                    [](const auto& s) { return std::holds_alternative<truth::SphereGauge>(s); }))
     collision::add_solids(bodies.links, {truth::SphereGauge{in.sphere, in.sphere_diameter / 2}}, bodies.set);
+  check_measuring_path(bodies.set, in);
   // Over the sphere the ball is one measuring path from it, less what the sphere is beside its place.
   bodies.set.clearance = std::min(bodies.set.clearance, in.measuring_path / 4);
 }
@@ -42,7 +69,13 @@ MeasurementMoves::MeasurementMoves(collision::MachineBodies bodies, const std::v
       for (const auto& tool : bodies.set.bodies)
         if (tool.tool && std::holds_alternative<collision::Sphere>(tool.shape))
           touching.allowed.emplace_back(tool.name, body.name);
-  moving_.emplace(bodies.links, std::move(bodies.set));
+  moving_.emplace(bodies.links, bodies.set);
+  // On the way to a pose the sphere may be anywhere in the confidence range.
+  for (auto& body : bodies.set.bodies)
+    if (auto* sphere = std::get_if<collision::Sphere>(&body.shape);
+        sphere != nullptr && body.link == bodies.links.workpiece())
+      sphere->radius += in.confidence_range + std::min(0.0, beside_confidence - bodies.set.clearance);
+  uncertain_.emplace(bodies.links, std::move(bodies.set));
   touching_.emplace(bodies.links, std::move(touching));
 }
 
@@ -57,7 +90,8 @@ std::string MeasurementMoves::fault_at(const PlannedPose& pose) const {
   auto at = approach(pose);
   if (const auto contact = moving_->first_contact(at, at))
     return moving_->text_of(contact->pair) + " over the sphere";
-  const double reach = inputs_.measuring_path;
+  // As far as the expected touch and a quarter of the measuring path beyond.
+  const double reach = standoff(inputs_) + inputs_.measuring_path / 4;
   std::size_t touches = 0;
   const auto meets = [&](const Vec3& to) {
     auto next = at;
@@ -69,8 +103,7 @@ std::string MeasurementMoves::fault_at(const PlannedPose& pose) const {
   for (const auto& to : measuring_steps(inputs_, measured_, pose, centre(pose))) {
     if (auto fault = meets(to.to); !fault.empty()) return fault;
     if (!to.touch) continue;
-    // As far as the expected touch and a quarter of the measuring path beyond.
-    if (auto fault = meets(to.to - 1.25 * reach * to.direction); !fault.empty()) return fault;
+    if (auto fault = meets(to.to - reach * to.direction); !fault.empty()) return fault;
     if (auto fault = meets(to.to); !fault.empty()) return fault;
     ++touches;
   }
@@ -78,7 +111,11 @@ std::string MeasurementMoves::fault_at(const PlannedPose& pose) const {
 }
 
 Way MeasurementMoves::way(const AxisPosition& from, const AxisPosition& to) const {
-  auto found = collision::find_way(*moving_, travel_, from, nearest_turns(measured_.outline, from, to));
+  // The probe may stand nearer already, as CYCLE9960 wants it over the pole, and the centre that was measured
+  // last may lead it nearer to the expected one.
+  const auto target = nearest_turns(measured_.outline, from, to);
+  const bool near = uncertain_->first_contact(from, from) || uncertain_->first_contact(target, target);
+  auto found = collision::find_way(near ? *moving_ : *uncertain_, travel_, from, target);
   if (const auto* fault = std::get_if<std::string>(&found)) throw std::runtime_error(*fault);
   return std::get<std::vector<collision::AxisPosition>>(std::move(found));
 }

@@ -13,7 +13,8 @@ class MeasurementMoves {
  public:
   /// `bodies` of the machine, with those of `solids`, and without a tool unless the file has one. The probe
   /// is put on the tool: `probe`, or one of the inputs' dimensions. Where no solid is a sphere, the one that
-  /// the inputs expect is added. `inputs` and `measured` must outlive the object.
+  /// the inputs expect is added. `inputs` and `measured` must outlive the object. Throws
+  /// std::runtime_error, one line, when the measuring path is so long that the stylus would meet the sphere.
   MeasurementMoves(collision::MachineBodies bodies, const std::vector<truth::Solid>& solids,
                    const std::optional<truth::TouchProbeTruth>& probe, const MeasurementInputs& inputs,
                    const MeasuredMachine& measured);
@@ -39,7 +40,7 @@ class MeasurementMoves {
   const MeasurementInputs& inputs_;
   const MeasuredMachine& measured_;
   collision::Travel travel_;
-  std::optional<collision::CollisionModel> moving_, touching_;
+  std::optional<collision::CollisionModel> moving_, uncertain_, touching_;
   geometry::Chain chain_;
 };
 

@@ -110,7 +110,7 @@ class Planner {
 
   void check_travel(const PlannedPose& pose) {
     const Vec3 centre = chain_.machine_from_tip(in_.sphere, pose.angles, in_.probe_length);
-    const double reach = (in_.sphere_diameter + in_.ball_diameter) / 2 + in_.measuring_path;
+    const double reach = (in_.sphere_diameter + in_.ball_diameter) / 2 + standoff(in_);
     for (int i = 0; i < 3; ++i) {
       const auto& travel = machine_.outline.axes[static_cast<std::size_t>(i)];
       if (!travel.present) continue;

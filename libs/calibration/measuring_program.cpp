@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::uint32_t first_variable = 52150, serial_variable = 52999;
 using canonical::axis_letters;
-constexpr double longest_turn = 150;  // deg, in one line; half a turn has no shorter way
-constexpr double arc_step = 10;       // deg: an arc around the sphere is a polygon
-constexpr double clear_of_shaft = 1;  // mm
-constexpr double second_retract = 1;  // mm, between first and second touch
+constexpr double longest_turn = 150;          // deg, in one line; half a turn has no shorter way
+constexpr double arc_step = 10;               // deg: an arc around the sphere is a polygon
+constexpr double second_retract = 1;          // mm, between first and second touch
+constexpr double largest_inverse_time = 1e6;  // 1/min: a way of the last digits only
 
 template <class... Values>
 std::string words(const char* format, Values... values) {
@@ -39,11 +39,10 @@ class Writer {
     text_ += words("#%u=0\n", serial_variable);
     text_ += "G21 G17 G90 G94 G40 G80 G49 G54 G61\n";
     text_ += words("M%u\n", in_.probe_on);
-    for (std::size_t i = 1; i < way.size(); ++i) {
-      // A way that turns and does not move is given the feed of the rotary axes.
-      const bool turns = std::equal(way[i].begin(), way[i].begin() + 3, way[i - 1].begin());
-      go(way[i - 1], way[i], turns ? in_.rotary_feed : in_.positioning_feed);
-    }
+    // By their time: F of a way that moves and turns would count millimetres and degrees together.
+    if (way.size() > 1) text_ += "G93\n";
+    for (std::size_t i = 1; i < way.size(); ++i) go(way[i - 1], way[i]);
+    if (way.size() > 1) text_ += "G94\n";
   }
   std::string end(const ProgramEnd& end) {
     text_ += words("#%u=%u\n", serial_variable, end.serial);
@@ -55,8 +54,17 @@ class Writer {
   void go(const Vec3& linear, double feed) {
     text_ += words("G53 G1 X%.6f Y%.6f Z%.6f F%.3f\n", linear.x(), linear.y(), linear.z(), feed);
   }
+  // min, with the linear axes at the positioning feed or the fastest rotary axis at its own.
+  double duration(const AxisPosition& from, const AxisPosition& to) const {
+    double turned = 0;
+    for (std::size_t i = 3; i < to.size(); ++i) turned = std::max(turned, std::abs(to[i] - from[i]));
+    const double moved = Vec3(to[0] - from[0], to[1] - from[1], to[2] - from[2]).norm();
+    return std::max(moved / in_.positioning_feed, turned / in_.rotary_feed);
+  }
   // In one sense: in parts where an axis that counts modulo 360 would take the shorter way.
-  void go(const AxisPosition& from, const AxisPosition& to, double feed) {
+  void go(const AxisPosition& from, const AxisPosition& to) {
+    const double minutes = duration(from, to);
+    if (minutes == 0) return;
     double parts = 1;
     for (std::size_t i = 0; i < to.size(); ++i)
       if (ways_[i] != canonical::RotaryWay::linear)
@@ -70,7 +78,7 @@ class Writer {
       for (std::size_t i = 0; i < next.size(); ++i)
         if (present_[i])
           text_ += words(" %c%.6f", axis_letters[i], canonical::rotary_word(ways_[i], next[i], last[i]));
-      text_ += words(" F%.3f\n", feed);
+      text_ += words(" F%.6f\n", std::min(parts / minutes, largest_inverse_time));
       last = next;
     }
   }
@@ -78,8 +86,8 @@ class Writer {
   // From the end of the measuring path against `direction`; the result is touch `number`.
   void touch(const Vec3& direction, std::size_t number) {
     text_ += words("G65 P9801 X%.9f Y%.9f Z%.9f D%.6f J%.3f K%.3f R%.6f\n", -direction.x(), -direction.y(),
-                   -direction.z(), 2 * in_.measuring_path, in_.first_touch_feed, in_.measuring_feed,
-                   std::min(second_retract, in_.measuring_path / 2));
+                   -direction.z(), standoff(in_) + in_.measuring_path, in_.first_touch_feed,
+                   in_.measuring_feed, std::min(second_retract, in_.measuring_path / 2));
     for (unsigned i = 0; i < 3; ++i)
       text_ += words("#%u=#%u-#%u+#%u\n", first_variable + 3 * static_cast<unsigned>(number) + i, 141 + i,
                      5041 + i, 5021 + i);
@@ -93,7 +101,7 @@ class Writer {
 };
 
 double outer_radius(const MeasurementInputs& in) {
-  return (in.sphere_diameter + in.ball_diameter) / 2 + in.measuring_path;
+  return (in.sphere_diameter + in.ball_diameter) / 2 + standoff(in);
 }
 
 // The arc about `tool` from one direction to the next, both across it, without its ends; empty where the
@@ -104,6 +112,7 @@ std::vector<Vec3> arc_between(const Vec3& from, const Vec3& to, const Vec3& tool
       geometry::arc_tangent(tool.dot(from.cross(to)), from.dot(to)) / geometry::radians_per_degree;
   if (angle <= 0) return {};
   const auto steps = static_cast<int>(std::ceil(angle / arc_step));
+  const double clear_of_shaft = std::max(1.0, in.confidence_range);  // mm
   std::vector<Vec3> points;
   for (int i = 1; i < steps; ++i) {
     const auto t = geometry::sine_cosine(angle * i / steps);

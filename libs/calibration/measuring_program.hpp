@@ -18,8 +18,7 @@ using AxisPosition = std::array<double, 9>;
 /// the next.
 using Way = std::vector<AxisPosition>;
 
-/// The pose with the ball over the pole, where the measuring path begins; `centre`
-/// as in TouchRound.
+/// The pose with the ball over the pole, where a touch begins; `centre` as in TouchRound.
 AxisPosition approach_position(const MeasurementInputs& inputs, const PlannedPose& pose, const Vec3& centre);
 
 /// `to` with the rotary axes that count modulo 360 at most half a turn from `from`.
@@ -29,7 +28,7 @@ AxisPosition nearest_turns(const truth::MachineOutline& outline, const AxisPosit
 Way retract_way(const AxisPosition& from, const AxisPosition& to, double top);
 
 /// One step of measuring a pose: straight to `to`, mm, machine coordinates; then, with a touch, on against
-/// `direction` by at most two measuring paths, and back.
+/// `direction` by at most standoff() and the measuring path, and back.
 struct MeasuringStep {
   Vec3 to = Vec3::Zero();
   double feed = 0;  ///< mm/min

@@ -57,7 +57,7 @@ void add_probe(const MachineLinks& links, const truth::TouchProbeTruth& probe, B
   const Vec3 down = -links.tool_direction();
   const double stylus = longest_stylus * probe.length;
   Body ball{"probe ball", links.spindle(), Sphere{probe.ball_radius}, links.face() + probe.length * down};
-  auto shank = cylinder("probe stylus", links.spindle(), links.face() + (probe.length - stylus) * down, down,
+  auto shank = cylinder(stylus_name, links.spindle(), links.face() + (probe.length - stylus) * down, down,
                         stylus, stylus_share * probe.ball_radius);
   auto body = cylinder("probe", links.spindle(), links.face(), down, probe.length - stylus, probe_radius);
   for (auto* part : {&ball, &shank, &body}) {

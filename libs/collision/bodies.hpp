@@ -52,6 +52,8 @@ BodySet derived_bodies(const MachineLinks& links);
 inline constexpr const char* tool_name = "tool";
 /// A tool as a cylinder from the spindle face to the tip, mm.
 Body tool_body(const MachineLinks& links, double length, double radius);
+/// Name of the body of the stylus that add_probe() adds.
+inline constexpr const char* stylus_name = "probe stylus";
 /// Ball, stylus and body of a touch probe, and the solids that it measures, with their shafts. Stylus: 0.6 of
 /// the ball's diameter, at most 40 % of the length; the body's diameter is 40 mm.
 void add_probe(const MachineLinks& links, const truth::TouchProbeTruth& probe, BodySet& bodies);

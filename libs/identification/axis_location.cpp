@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "canonical/axes.hpp"
+#include "geometry/angle.hpp"
 #include "geometry/decompositions.hpp"
 
 namespace trunnion::identification {
@@ -37,6 +38,31 @@ Eigen::VectorXd column_of(const truth::TrueGeometry& wrong, const geometry::Chai
     column.segment<3>(static_cast<Eigen::Index>(3 * i)) = moved / step;
   }
   return column;
+}
+
+// Of one reading in one direction, as what moves as slowly as an axis that is displaced sees it. Neighbouring
+// readings share their error, because those of a turn are smoothed: their power in the orders 2 .. 6 of the
+// readings counts, 30 values in three directions; orders 0 and 1 are the setting and the errors themselves.
+// Few readings are taken as independent.
+double variance_of(const Eigen::VectorXd& residual, Eigen::Index unknowns) {
+  constexpr Eigen::Index lowest = 2, highest = 6;
+  const Eigen::Index rows = residual.size(), readings = rows / 3;
+  if (readings <= 2 * highest)
+    return residual.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(rows - 3 - unknowns, 1));
+  double power = 0;
+  for (Eigen::Index order = lowest; order <= highest; ++order)
+    for (Eigen::Index direction = 0; direction < 3; ++direction) {
+      double cosine = 0, sine = 0;
+      for (Eigen::Index i = 0; i < readings; ++i) {
+        const auto turn =
+            geometry::sine_cosine(360.0 * static_cast<double>(order * i) / static_cast<double>(readings));
+        cosine += residual[3 * i + direction] * turn.cosine;
+        sine += residual[3 * i + direction] * turn.sine;
+      }
+      power += 2 * (cosine * cosine + sine * sine) / static_cast<double>(readings);
+    }
+  constexpr double values = 3 * 2 * (highest - lowest + 1);
+  return power / values;
 }
 
 }  // namespace
@@ -107,8 +133,7 @@ AxisLocation locate_axis(const truth::MachineOutline& machine, const geometry::C
         rest.segment<3>(static_cast<Eigen::Index>(3 * i)) / static_cast<double>(readings.size());
   const Eigen::VectorXd residual = varying(rest);
   result.residual = residual.norm() / std::sqrt(static_cast<double>(rows));
-  const double freedom = static_cast<double>(std::max<Eigen::Index>(rows - 3 - x.size(), 1));
-  const double variance = residual.squaredNorm() / freedom;
+  const double variance = variance_of(residual, x.size());
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     const auto& unknown = unknowns[static_cast<std::size_t>(k)];
     result.errors.push_back(

@@ -16,8 +16,8 @@ struct BallDeviation {
 };
 
 struct AxisLocation {
-  /// ISO 230-7: XOC YOC AOC BOC of a C axis; the standard uncertainty follows from the residuals as if they
-  /// were independent.
+  /// ISO 230-7: XOC YOC AOC BOC of a C axis; the standard uncertainty follows from the residuals and
+  /// from what neighbouring ones have in common.
   std::vector<LocationResult> errors;
   std::vector<std::string> hidden;            ///< errors that these readings do not show
   truth::Vec3 setting = truth::Vec3::Zero();  ///< mm: of the sensors' zero, machine X Y Z

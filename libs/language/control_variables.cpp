@@ -47,7 +47,6 @@ void ControlVariables::start() {
   program_number_ = 0;
   modal_macro_ = needs_answer_ = false;
   answer_ = 0;
-  skip_position_ = {};
   request_.reset();
 }
 

@@ -167,16 +167,19 @@ Fault DrillingCycles::check_cycle(std::uint16_t at) const {
 
 // In the plane that the spindle is square to, the tool drills from R down to the depth, in back boring (G87)
 // up. In the other planes an angle head may point either way. A mirror of Z exchanges the two in the
-// program's numbers.
+// program's numbers. Equal levels leave nothing to drill: the rapid to R would reach the bottom.
 Fault DrillingCycles::check_levels(std::uint16_t at) const {
-  if (state_.modal.plane != Plane::xy) return {};
   const HoleParameters& hole = state_.settings().cycle.hole;
-  AxisValues r = state_.program_position, depth = r;
-  r[Z] = hole.r;
-  depth[Z] = hole.z;
-  const double upwards =
-      state_.frame().contour_from_program(depth)[Z] - state_.frame().contour_from_program(r)[Z];
-  if (state_.modal.cycle == 87 ? upwards >= 0 : upwards <= 0) return {};
+  bool good = hole.z != hole.r;
+  if (good && state_.modal.plane == Plane::xy) {
+    AxisValues r = state_.program_position, depth = r;
+    r[Z] = hole.r;
+    depth[Z] = hole.z;
+    const double upwards =
+        state_.frame().contour_from_program(depth)[Z] - state_.frame().contour_from_program(r)[Z];
+    good = state_.modal.cycle == 87 ? upwards > 0 : upwards < 0;
+  }
+  if (good) return {};
   FaultDetail& detail = context_.detail;
   detail.number = AlarmNumber::cycle_level_side;
   std::snprintf(detail.text.data(), detail.text.size(), "R %.3f mm, depth %.3f mm", hole.r, hole.z);

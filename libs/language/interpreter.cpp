@@ -33,6 +33,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   }
   control_.forget_call();
   variables_.start(variables);
+  control_.set_skip_position(variables_.skip_position());
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
   queue_.clear();
   alarm_ = Alarm{};
@@ -67,11 +68,34 @@ Step Interpreter::next(Command& command) {
     queue_.clear();
     ++lines_;
     Step step = Step::working;
+    const auto from = reader_.position().offset;
+    const auto depth = depth_;
     state_ = state_ == State::searching ? search_line(step) : run_line(step);
     if (step == Step::pending || step == Step::line) return step;
+    if (watch_ != nullptr && jumped_back(from, depth) && repeats_for_ever()) state_ = State::done;
   }
   command = queue_.pop();
   return Step::command;
+}
+
+// Not by a call, nor behind one.
+bool Interpreter::jumped_back(std::uint64_t from, std::size_t depth) const {
+  if (state_ != State::running || executor_.busy() || depth_ > depth) return false;
+  const auto offset = reader_.position().offset;
+  return depth_ < depth ? offset != levels_[depth_].resume.offset : offset <= from;
+}
+
+bool Interpreter::repeats_for_ever() {
+  ReadingPlace place;
+  place.depth = depth_;
+  place.modal_calls = modal_calls_.count();
+  for (std::size_t i = 0; i <= depth_; ++i) {
+    const CallLevel& level = levels_[i];
+    const TextPosition behind = i == depth_ ? reader_.position() : level.resume;
+    place.levels[i] = {level.source, behind.offset, level.remaining};
+  }
+  const std::uint32_t line = depth_ == 0 ? reader_.position().line : levels_[1].call_line;
+  return watch_->returns(place, line, variables_, executor_.position(), executor_.modal());
 }
 
 Interpreter::State Interpreter::report_line_status(LineReader::Status status, Step& step) {
@@ -181,7 +205,8 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
 void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {
   if (executor_.needs_position()) {
     executor_.set_position(touched);
-    control_.set_skip_position(executor_.workpiece_position());
+    variables_.set_skip_position(executor_.workpiece_position());
+    control_.set_skip_position(variables_.skip_position());
   }
   executor_.set_position(position);
 }

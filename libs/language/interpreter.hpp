@@ -7,6 +7,7 @@
 
 #include "language/block_executor.hpp"
 #include "language/control_variables.hpp"
+#include "language/endless_loop.hpp"
 #include "language/iso_dialect.hpp"
 #include "language/jump_cache.hpp"
 #include "language/line_reader.hpp"
@@ -69,6 +70,10 @@ class Interpreter {
   /// Step::line: modal() and position() are then the state in which it begins. 0 = nowhere. Ends with
   /// start().
   void stop_before_line(std::uint32_t line) { stop_line_ = line; }
+
+  /// Ends a program, without the end command, where `watch` finds that it repeats for ever. It must be used
+  /// for one program and outlive it; null: none.
+  void watch_loops(EndlessLoop* watch) { watch_ = watch; }
 
   /// The next command. Before start() there is only the end.
   Step next(Command& command);
@@ -161,6 +166,8 @@ class Interpreter {
   State execute_words(std::string_view line);
   State go(const Flow& flow, std::string_view line);
   State end_of_text();
+  bool jumped_back(std::uint64_t from, std::size_t depth) const;
+  bool repeats_for_ever();
   State fail(const Fault& fault, std::string_view line);
   State fail(const Alarm& alarm);
   State report_line_status(LineReader::Status status, Step& step);
@@ -203,6 +210,7 @@ class Interpreter {
   Alarm alarm_;
   std::uint32_t line_ = 0;  // of the block being executed
   std::uint32_t stop_line_ = 0;
+  EndlessLoop* watch_ = nullptr;
   std::uint64_t blocks_ = 0, lines_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides

@@ -23,6 +23,8 @@ class ModalCalls {
   /// G67: ends the newest that the current program may use; without effect when there is none.
   void remove();
   void clear() { count_ = usable_ = 0; }
+  /// How many are active, whatever the current program may use of them.
+  std::size_t count() const { return count_; }
 
   /// What a block of the current program calls; null when nothing.
   const Entry* active() const { return usable_ == 0 ? nullptr : &entries_[usable_ - 1]; }

@@ -75,16 +75,17 @@ Fault PathMotion::read_corner(std::optional<Corner>& corner) {
   return {};
 }
 
-Fault PathMotion::set_turns(const AxisValues& target, std::uint16_t at, Arc& arc) {
+Fault PathMotion::set_turns(const AxisValues& target, Arc& arc) {
   const std::uint8_t normal = plane_axes(arc.plane).normal;
   const char lead_letter = static_cast<char>('I' + normal);
-  if (!words_.has(lead_letter)) return {};
-  // The third centre letter is the lead of a helix: how far it goes in a turn, hence how many turns.
+  if (!words_.has(lead_letter) || (state_.modal.tool_vector && words_.has('R'))) return {};
+  // The third centre letter is the lead of a helix: how far it goes in a turn, hence how many turns. Posts
+  // that write all three letters write 0, which says nothing, also of an arc in the plane.
   const double height = std::abs(target[normal] - state_.program_position[normal]);
-  if (height < no_height || (state_.modal.tool_vector && words_.has('R'))) return {};
+  if (height < no_height && words_.value(lead_letter) != 0) return {};
   const double lead = std::abs(words_.length(lead_letter));
-  if (words_.has('L')) return {};
-  if (!(lead > 0) || height / lead > most_turns) return {AlarmNumber::value_range, at};
+  if (words_.has('L') || lead == 0) return {};
+  if (height / lead > most_turns) return {AlarmNumber::value_range, words_.offset(lead_letter)};
   const double turns = std::round(height / lead - arc.sweep / 360);
   if (turns > 0) arc.sweep += 360 * turns;
   return {};
@@ -95,7 +96,7 @@ Fault PathMotion::find_arc(const AxisValues& target, std::uint16_t at, Arc& arc)
   arc.clockwise = state_.modal.motion == 2;
   if (!state_.frame().keeps_circles(arc.plane)) return {AlarmNumber::arc_scaled_unequally, at};
   if (const Fault fault = find_circle(target, at, arc)) return fault;
-  if (const Fault fault = set_turns(target, at, arc)) return fault;
+  if (const Fault fault = set_turns(target, arc)) return fault;
   const AxisValues middle{arc.centre[0], arc.centre[1], arc.centre[2], 0, 0, 0, 0, 0, 0};
   const AxisValues contour_centre = state_.frame().contour_from_program(middle);
   arc.centre = {contour_centre[X], contour_centre[Y], contour_centre[Z]};

@@ -22,7 +22,7 @@ class PathMotion : private BlockHandler {
   Fault find_circle(const AxisValues& target, std::uint16_t& at, Arc& arc);
   /// What the block asks for at the end of its move.
   Fault read_corner(std::optional<Corner>& corner);
-  Fault set_turns(const AxisValues& target, std::uint16_t at, Arc& arc);
+  Fault set_turns(const AxisValues& target, Arc& arc);
   Fault move_on_arc(const Arc& arc, const AxisValues& target);
 
   ToolVectorMotion& vectors_;

@@ -16,8 +16,34 @@ const VariableRange* system_range(double number) {
 void Variables::start(const VariableStore& store) {
   store_ = store;
   level_ = 0;
+  system_reads_ = 0;
   levels_[0].arguments.clear();
   levels_[0].values.fill({});
+}
+
+std::array<double, 9> Variables::skip_position() const {
+  std::array<double, 9> position{};
+  for (std::size_t i = 0; i < position.size(); ++i) position[i] = store_.skip[i].number;
+  return position;
+}
+
+void Variables::set_skip_position(const std::array<double, 9>& position) {
+  for (std::size_t i = 0; i < position.size(); ++i) store_.skip[i] = Value::of(position[i]);
+}
+
+void Variables::copy_to(VariableImage& image) const {
+  image.store = store_;
+  for (std::size_t i = 0; i <= level_; ++i) image.locals[i] = levels_[i].values;
+  image.level = level_;
+  image.system_reads = system_reads_;
+}
+
+// The locals first: a loop counts in them most often.
+bool Variables::same_as(const VariableImage& image) const {
+  if (image.level != level_ || image.system_reads != system_reads_) return false;
+  for (std::size_t i = level_ + 1; i-- > 0;)
+    if (image.locals[i] != levels_[i].values) return false;
+  return image.store == store_;
 }
 
 void Variables::enter(const Arguments& arguments) {
@@ -43,6 +69,7 @@ AlarmNumber Variables::read_common(double number, Value& value) const {
   }
   const VariableRange* const range = system_range(number);
   if (range == nullptr) return AlarmNumber::variable_unknown;
+  ++system_reads_;
   return system_.read(*range, static_cast<std::uint32_t>(number) - range->first, value);
 }
 

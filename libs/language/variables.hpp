@@ -15,6 +15,7 @@ struct Value {
   double number = 0;  ///< 0 when not given
   bool given = false;
   static constexpr Value of(double number) { return {number, true}; }
+  bool operator==(const Value&) const = default;
 };
 
 /// Which variables there are. Where Fanuc and HNC-8 use a number differently, the choice is made here.
@@ -77,7 +78,8 @@ inline constexpr std::array variable_ranges = {
                   "end of the block before, program coordinates, X Y Z A B C U V W"},
     VariableRange{5021, 5029, VariableKind::machine_position, false, "position, machine coordinates"},
     VariableRange{5041, 5049, VariableKind::work_position, false, "position, workpiece coordinates"},
-    VariableRange{5061, 5069, VariableKind::skip_position, false, "where G31 stopped, workpiece coordinates"},
+    VariableRange{5061, 5069, VariableKind::skip_position, false,
+                  "where the newest G31 stopped, workpiece coordinates; kept"},
     VariableRange{5081, 5089, VariableKind::active_length, false, "active tool length by axis: 5083 for Z"},
     VariableRange{5221, 5329, VariableKind::work_offset, true,
                   "work offsets: 5221 X of G54, 5241 of G55 .. 5321 of G59"},
@@ -94,10 +96,21 @@ constexpr bool is_system_variable(double number) { return number >= 1000 && numb
 struct VariableStore {
   std::array<Value, 150> common{};  ///< #50..#199
   std::array<Value, 500> kept{};    ///< #500..#999
+  std::array<Value, 9> skip{};      ///< #5061..#5069, mm and degrees whatever the units of the program
   std::array<Value, 5000> user{};   ///< #50000..#54999
+  bool operator==(const VariableStore&) const = default;
 };
 
 inline constexpr std::uint32_t local_variables = 50;
+inline constexpr std::size_t variable_levels = 9;
+
+/// What a program could read at one moment, but for system variables.
+struct VariableImage {
+  VariableStore store;
+  std::array<std::array<Value, local_variables>, variable_levels> locals{};
+  std::size_t level = 0;
+  std::uint64_t system_reads = 0;  ///< how often the program had read one since its start
+};
 
 /// The letters of a macro call as the variables they become.
 struct Arguments {
@@ -122,7 +135,7 @@ class SystemVariables {
 /// Everything an expression can name. No allocation.
 class Variables {
  public:
-  static constexpr std::size_t max_levels = 9;
+  static constexpr std::size_t max_levels = variable_levels;
 
   explicit Variables(SystemVariables& system) : system_(system) {}
 
@@ -148,7 +161,14 @@ class Variables {
   /// AR[#n]: 0 when the call did not give local variable n, else 90 or 91 as G90 or G91 was active then.
   AlarmNumber argument(double number, Value& value) const;
 
+  /// Of each axis, 0 when no skip move has ended yet.
+  std::array<double, 9> skip_position() const;
+  void set_skip_position(const std::array<double, 9>& position);
+
   const VariableStore& store() const { return store_; }
+  void copy_to(VariableImage& image) const;
+  /// False also when a system variable was read since.
+  bool same_as(const VariableImage& image) const;
   /// Of the innermost level.
   const std::array<Value, local_variables>& locals() const { return levels_[level_].values; }
 
@@ -165,6 +185,7 @@ class Variables {
   VariableStore store_;
   std::array<Level, max_levels> levels_{};
   std::size_t level_ = 0;
+  mutable std::uint64_t system_reads_ = 0;
 };
 
 }  // namespace trunnion::language

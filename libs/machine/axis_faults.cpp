@@ -2,8 +2,10 @@
 #include "machine/axis_faults.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "canonical/axes.hpp"
@@ -35,7 +37,10 @@ class AxisFaults {
       spindles(channel);
     }
     gantries();
-    for (const auto& axis : axes_) travel(axis);
+    for (const auto& axis : axes_) {
+      travel(axis);
+      gear(axis);
+    }
     for (std::uint32_t i = 0; i < skip_inputs; ++i) skip_input(i);
     return std::move(faults_);
   }
@@ -137,13 +142,32 @@ class AxisFaults {
         add({number, first->second}, {named(parameter::gantry_slave_axis, 0, i), ": ", axis_text(slave),
                                       " is a slave already (parameter ", number_text(first->second), ")"});
     }
+    std::set<int> masters;
     for (const auto& [slave, number] : slaves) {
       if (!is_gantry_slave(p_, slave)) continue;
-      if (auto fault = gantry_fault(p_, axes_, slave))
+      if (auto fault = gantry_fault(p_, axes_, slave)) {
         faults_.push_back(std::move(*fault));
-      else
-        couple(slave, number, slaves);
+        continue;
+      }
+      couple(slave, number, slaves);
+      drive_word(slave, true);
+      masters.insert(p_.integer(parameter::gantry_master, static_cast<std::uint32_t>(slave)));
     }
+    for (const int master : masters)
+      if (!slaves.contains(master)) drive_word(master, false);
+  }
+
+  // PB64: a drive whose tens say the wrong side would exchange nothing with its partner, without a word.
+  void drive_word(int axis, bool slave) {
+    const auto a = static_cast<std::uint32_t>(axis);
+    const auto drive = DriveSynchronization::from(p_, a);
+    if (!drive.on || drive.slave == slave) return;
+    const int word = p_.integer(parameter::drive_synchronization, a), tens = word / 10 % 10 * 10;
+    add({parameter::drive_synchronization.number(a)},
+        {named(parameter::drive_synchronization, a), ": PB64 of ", axis_text(axis), ", a ",
+         slave ? "slave" : "master", " of a gantry, is ", std::to_string(word),
+         ", and its tens make the drive a ", slave ? "master" : "slave", ": enter ",
+         std::to_string(slave ? word + 10 : word - tens)});
   }
 
   // Slave and master exist.
@@ -199,6 +223,16 @@ class AxisFaults {
     for (std::uint32_t k = 0; k < numbered_references; ++k)
       if (p_.values.contains(parameter::numbered_reference.number(a, k)))
         inside(parameter::numbered_reference, k, "reference point " + std::to_string(k + 2));
+  }
+
+  void gear(const AxisInfo& axis) {
+    constexpr double least = 1;  // um or mdeg
+    const auto a = axis.number;
+    if (std::abs(p_.get(parameter::travel_per_revolution, a)) >= least) return;
+    add({parameter::travel_per_revolution.number(a)},
+        {named(parameter::travel_per_revolution, a), ": ", axis_text(a), " travels ",
+         value_text(parameter::travel_per_revolution, a),
+         " for one revolution of its motor: at least 1, or -1 when the motor turns the other way"});
   }
 
   void skip_input(std::uint32_t i) {

@@ -64,6 +64,7 @@ class Check {
       : directory_(directory), state_directory_(state_directory) {}
 
   MachineReport report() {
+    for (const auto& finding : broken_links(directory_)) add(finding);
     attempt("machine.yaml", [&](const std::string&) {
       config_ = machine::load_machine(directory_);
       report_.name = config_->name;
@@ -110,9 +111,12 @@ class Check {
   }
 
   std::string path(const std::string& name) const { return directory_ + "/" + name; }
+  // broken_links() has named it.
+  static bool leads_nowhere(const std::string& file) { return fs::is_symlink(file) && !fs::exists(file); }
 
   void attempt(const std::string& name, const Read& read) {
     report_.files.push_back(name);
+    if (leads_nowhere(path(name))) return;
     try {
       read(path(name));
     } catch (const std::exception& e) {
@@ -147,6 +151,7 @@ class Check {
 
   void plc() {
     const auto directory = config_->plc_directory();
+    if (leads_nowhere(directory)) return;
     try {
       const auto files = st::read_sources(directory);
       for (const auto& file : files) report_.files.push_back("plc/" + file.name);
@@ -297,6 +302,21 @@ std::string to_string(const Finding& finding) {
   for (const int number : {finding.line, finding.column})
     if (number != 0) text += ":" + std::to_string(number);
   return text + error_mark + finding.text;
+}
+
+std::vector<Finding> broken_links(const std::string& directory) {
+  std::vector<Finding> findings;
+  std::error_code ignored;
+  const fs::recursive_directory_iterator end{};
+  for (fs::recursive_directory_iterator entry(directory, ignored); entry != end; entry.increment(ignored)) {
+    if (!entry->is_symlink(ignored) || entry->exists(ignored)) continue;
+    std::string text = "is a link to '";
+    text.append(fs::read_symlink(entry->path(), ignored).string());
+    text.append("', which is not there: 'trunnion new machine NAME --from MACHINE' copies a machine whole");
+    findings.push_back({entry->path().string(), 0, 0, std::move(text)});
+  }
+  std::sort(findings.begin(), findings.end(), [](const auto& a, const auto& b) { return a.file < b.file; });
+  return findings;
 }
 
 MachineReport check_machine(const std::string& directory, const std::string& state_directory) {

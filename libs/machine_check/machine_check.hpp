@@ -18,6 +18,10 @@ struct Finding {
 /// "file:line:column: error: text", without what is 0.
 std::string to_string(const Finding& finding);
 
+/// A finding for each link in the folder that leads nowhere, as in a folder that was copied away from the one
+/// its links lead to.
+std::vector<Finding> broken_links(const std::string& directory);
+
 struct MachineReport {
   std::vector<Finding> findings;
   std::string name;      ///< of the machine

@@ -60,6 +60,23 @@ std::string without_suffix(const std::string& name) {
   return name.ends_with(suffix) ? name.substr(0, name.size() - suffix.size()) : name;
 }
 
+bool is_no_file(const fs::path& path) { return fs::exists(path) && !fs::is_regular_file(path); }
+
+// A directory, say, where a file of the state belongs.
+void check_other_entries(const fs::path& directory, std::vector<FileReport>& reports) {
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    const auto name = entry.path().filename().string();
+    if (entry.is_regular_file()) continue;
+    const bool journal = has(journals, name), memory = memory_of(name) != nullptr;
+    if (journal || memory || is_text(name))
+      reports.push_back({name,
+                         journal  ? Kind::journal
+                         : memory ? Kind::memory
+                                  : Kind::text,
+                         KeptState::unusable, 0, "it is no file: move it away"});
+  }
+}
+
 std::vector<std::string> list(const fs::path& directory) {
   std::vector<std::string> names;
   std::error_code error;
@@ -143,10 +160,13 @@ std::vector<FileReport> check_state(const std::string& directory) {
   std::set<std::string> names;
   for (const auto& name : list(directory)) names.insert(without_suffix(name));
   for (const auto& name : names) {
+    // Its previous generation alone may be a file; check_other_entries() names it.
+    if (is_no_file(fs::path(directory) / name)) continue;
     if (is_text(name)) check_text(directory, name, reports);
     if (const auto* memory = memory_of(name)) reports.push_back(check_memory(directory, *memory));
     if (has(journals, name)) reports.push_back(check_journal(directory, name));
   }
+  check_other_entries(directory, reports);
   check_programs(directory, reports);
   std::sort(reports.begin(), reports.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return reports;

@@ -318,9 +318,11 @@ std::variant<KinematicFit, FitError> fit_kinematics(const ChainParameters& start
   fit.freedom = poses.size() * 3 - static_cast<std::size_t>(rank);
   fit.condition = svd.singularValues()[0] / svd.singularValues()[svd.singularValues().size() - 1];
   if (fit.freedom > 0) fit.touch_deviation = residual.norm() / std::sqrt(static_cast<double>(fit.freedom));
-  const double unit = fit.freedom > 0 ? fit.touch_deviation : options.touch_uncertainty;
+  const double by_residuals = fit.freedom > 0 ? fit.touch_deviation : options.touch_uncertainty;
+  const bool given = options.touch_deviation > 0;
+  const double unit = given ? options.touch_deviation : by_residuals;
   const auto values = static_cast<std::size_t>(std::max<Index>(rank - 3, 1));
-  fit.coverage_factor = coverage_factor(0.95, values, fit.freedom);
+  fit.coverage_factor = coverage_factor(0.95, values, given ? options.touch_freedom : fit.freedom);
   const MatrixXd seen = span * svd.matrixV().leftCols(rank);
   const MatrixXd hidden = span * svd.matrixV().rightCols(span.cols() - rank);
   const MatrixXd scaled = unit * seen * svd.singularValues().head(rank).cwiseInverse().asDiagonal();

@@ -36,6 +36,10 @@ struct FitOptions {
   /// Standard uncertainty of a touch (the unit of MeasuredPose::cofactor), mm, for measurements without
   /// freedom. 0: unknown.
   double touch_uncertainty = 0;
+  /// Standard deviation of a touch by a fit that leaves nothing out, mm, with its degrees of freedom. 0: by
+  /// the residuals of this one, in which what is not estimated would count as an error of the touches.
+  double touch_deviation = 0;
+  std::size_t touch_freedom = 0;
   /// Standard uncertainty of the tool length, mm: added to the vectors that depend on it.
   double tool_length_uncertainty = 0;
   /// In addition: variance of the tool length for touches of variance 1, where touches have given it.

@@ -67,9 +67,7 @@ ParameterStore::ParameterStore(Storage& storage, MachineDefaults defaults, const
     state_.tools = tool_tables::read_tools(*text, tool_tables::tools_file, state_.tools_revision);
   if (const auto text = storage_.read(tool_tables::offsets_file))
     state_.offsets = tool_tables::read_offsets(*text, tool_tables::offsets_file, state_.offsets_revision);
-  // A torn last line of the journal ends here, so that the next entry has a line of its own.
-  if (const auto text = storage_.read(journal_file); text && !text->empty() && text->back() != '\n')
-    storage_.truncate(journal_file, text->rfind('\n') == std::string::npos ? 0 : text->rfind('\n') + 1);
+  repair_journal();
 
   const auto kept = storage_.read(active_file);
   if (kept) active_ = read_active(*kept, active_file);
@@ -87,6 +85,17 @@ ParameterStore::ParameterStore(Storage& storage, MachineDefaults defaults, const
     news = news || !kept || active_.boot != boot;
   }
   if (news) begin(next, kept.has_value());
+}
+
+// A torn last line ends here, so that the next entry has a line of its own. Nothing is read from the journal:
+// without one the machine starts, and a change is refused.
+void ParameterStore::repair_journal() {
+  try {
+    if (const auto text = storage_.read(journal_file); text && !text->empty() && text->back() != '\n')
+      storage_.truncate(journal_file, text->rfind('\n') == std::string::npos ? 0 : text->rfind('\n') + 1);
+  } catch (const StorageError& error) {
+    problem_ = std::string(error.what()) + "; no change of parameters, tools or work offsets is possible";
+  }
 }
 
 void ParameterStore::begin(const ActiveSet& next, bool kept) {

@@ -48,7 +48,8 @@ class ParameterStore {
   std::vector<machine::ParameterFault> faults() const;
   /// News since the last call.
   Changes take_changes();
-  /// Why the start could not be stored, when nothing else was new; else empty.
+  /// Why the journal cannot be used, or why the start could not be stored when nothing else was new; or
+  /// empty.
   const std::string& problem() const { return problem_; }
 
  private:
@@ -66,6 +67,7 @@ class ParameterStore {
   std::string change(State& next, const idl::parameters::ParameterRequest& request,
                      std::vector<std::string>& journal, const std::string& time) const;
   std::string misfit(const Values& overrides) const;
+  void repair_journal();
   void begin(const ActiveSet& next, bool kept);
   void commit(const State& next, const ActiveSet& active, const std::vector<std::string>& journal);
 

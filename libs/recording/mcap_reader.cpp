@@ -145,6 +145,7 @@ std::string Reader::open_chunk(std::span<const std::uint8_t> content) {
   }
   if (chunk_.size() != size || (crc != 0 && storage::crc32(0, chunk_) != crc))
     return "the chunk fails its checksum";
+  ++compressions_[compression.empty() ? "none" : compression];
   in_chunk_ = chunk_;
   return {};
 }

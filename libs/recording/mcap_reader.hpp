@@ -49,6 +49,8 @@ class Reader {
   const std::map<std::uint16_t, Schema>& schemas() const { return index_.schemas; }
   const std::map<std::uint16_t, Channel>& channels() const { return index_.channels; }
   const std::vector<Metadata>& metadata() const { return metadata_; }
+  /// Chunks that have been read so far, by compression: "zstd", "none".
+  const std::map<std::string, std::uint64_t>& compressions() const { return compressions_; }
 
  private:
   struct Decompressor;
@@ -81,6 +83,7 @@ class Reader {
   std::string problem_;
   std::vector<Damage> damages_;
   std::vector<Metadata> metadata_;
+  std::map<std::string, std::uint64_t> compressions_;
 };
 
 }  // namespace trunnion::recording

@@ -116,13 +116,19 @@ bool Writer::write(std::uint16_t channel, std::uint32_t sequence, std::uint64_t 
   return chunk_.size() < options_.chunk_bytes || flush();
 }
 
-bool Writer::flush() {
-  if (failed_ || chunk_messages_ == 0) return !failed_;
+// The chunk as it is to be stored: compressed, when that makes it smaller.
+std::span<const std::uint8_t> Writer::stored_chunk() {
+  if (options_.compression == Compression::none) return chunk_;
   compressed_.resize(ZSTD_compressBound(chunk_.size()));
   const auto size = ZSTD_compressCCtx(compressor_->context, compressed_.data(), compressed_.size(),
                                       chunk_.data(), chunk_.size(), options_.compression_level);
-  const bool stored = ZSTD_isError(size) != 0 || size >= chunk_.size();
-  const auto payload = stored ? std::span<const std::uint8_t>(chunk_) : std::span(compressed_).first(size);
+  if (ZSTD_isError(size) != 0 || size >= chunk_.size()) return chunk_;
+  return std::span(compressed_).first(size);
+}
+
+bool Writer::flush() {
+  if (failed_ || chunk_messages_ == 0) return !failed_;
+  const auto payload = stored_chunk();
 
   ChunkEntry entry{chunk_first_, chunk_last_, offset_, 0, 0, payload.size(), chunk_.size(), {}};
   RecordWriter out(out_);
@@ -131,7 +137,7 @@ bool Writer::flush() {
   out.put(chunk_last_);
   out.put(static_cast<std::uint64_t>(chunk_.size()));
   out.put(storage::crc32(0, chunk_));
-  out.put(std::string_view(stored ? "" : "zstd"));
+  out.put(std::string_view(payload.size() == chunk_.size() ? "" : "zstd"));
   out.put(static_cast<std::uint64_t>(payload.size()));
   out.put(payload);
   out.end();

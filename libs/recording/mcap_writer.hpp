@@ -9,10 +9,13 @@
 
 namespace trunnion::recording {
 
+enum class Compression : std::uint8_t { none, zstd };
+
 struct WriterOptions {
   std::string library = "trunnion";
-  std::size_t chunk_bytes = 1 << 20;  ///< of messages in a chunk before compression, about
-  int compression_level = 1;          ///< of zstd, 1..19
+  std::size_t chunk_bytes = 1 << 20;            ///< of messages in a chunk before compression, about
+  int compression_level = 1;                    ///< of zstd, 1..19
+  Compression compression = Compression::zstd;  ///< of the chunks; one that does not get smaller has none
 };
 
 /// A file that is cut off anywhere can be read up to its last whole chunk. After a sink's failure nothing
@@ -66,6 +69,7 @@ class Writer {
   struct Compressor;
 
   bool emit();
+  std::span<const std::uint8_t> stored_chunk();
   void put_schema(RecordWriter& out, const Schema& schema);
   void put_channel(RecordWriter& out, const Channel& channel);
   void put_summary();

@@ -99,6 +99,7 @@ ProgrammedPath programmed_path(const std::string& text, const MachineTables& tab
           case language::CommandKind::rapid:
           case language::CommandKind::line:
           case language::CommandKind::skip:
+          case language::CommandKind::tap:
           case language::CommandKind::arc:
             tracer.trace(at, command);
             at = command.target;

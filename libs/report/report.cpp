@@ -66,16 +66,19 @@ class Cursor {
   std::size_t next_ = 0;
 };
 
+// mm or deg. In full closed loop (10a930) the encoder is that of the load.
+double play_behind_encoder(const machine::Parameters& parameters, std::uint32_t axis) {
+  const bool at_load = parameters.integer(parameter::full_closed_loop, axis) != 0;
+  return at_load ? 0 : parameters.get(parameter::mechanical_backlash, axis);
+}
+
 // The loads behind the play of the axes (10a910), from the rows of the motor encoders: a load follows its
-// motor when one flank or the other touches. It begins in the middle of the play. In full closed loop
-// (10a930) the rows are those of the load.
+// motor when one flank or the other touches. It begins in the middle of the play.
 class LoadRows {
  public:
   LoadRows(const RowTable& motor, const machine::Parameters& parameters) : motor_(motor) {
     for (const auto& axis : machine::drive_axes(parameters))
-      half_.push_back(parameters.integer(parameter::full_closed_loop, axis.number) != 0
-                          ? 0
-                          : parameters.get(parameter::mechanical_backlash, axis.number) / 2);
+      half_.push_back(play_behind_encoder(parameters, axis.number) / 2);
     half_.resize(motor.width, 0);
     if (!motor.cycles.empty()) load_.assign(motor.row(0), motor.row(0) + motor.width);
   }
@@ -109,6 +112,7 @@ class Evaluation {
       const auto found = std::find(capture.gantry_axes.begin(), capture.gantry_axes.end(), number);
       gantry_columns_.push_back(
           found == capture.gantry_axes.end() ? -1 : static_cast<int>(found - capture.gantry_axes.begin()));
+      has_play_.push_back(play_behind_encoder(capture.tables.parameters, number) > 0);
     }
   }
 
@@ -147,8 +151,9 @@ class Evaluation {
       sample.commanded_foot = near.point;
       (sample.rapid ? commanded_rapid : commanded_feed).add(near.distance, sample);
 
-      if (const double* joints = gantry.at(row.cycle); joints != nullptr && !capture_.gantry_axes.empty()) {
-        const double off = (tip_of_joints(joints, gantry_columns_, row) - sample.commanded).norm();
+      const double* joints = capture_.gantry_axes.empty() ? nullptr : gantry.at(row.cycle);
+      if (joints != nullptr) {
+        const double off = (tip_of(by_letter(joints, gantry_columns_), row) - sample.commanded).norm();
         residual_squares += off * off;
         ++report_.residual_cycles;
         report_.residual_largest = std::max(report_.residual_largest, off);
@@ -159,7 +164,7 @@ class Evaluation {
       }
       if (const double* position = actual.at(row.cycle)) {
         sample.has_actual = true;
-        sample.actual = tip_of_joints(position, drive_columns_, row);
+        sample.actual = actual_tip(position, joints, row);
         const auto close = programmed.path.nearest(sample.actual, actual_guess);
         actual_guess = close.piece;
         sample.actual_foot = close.point;
@@ -206,8 +211,20 @@ class Evaluation {
       if (columns[i] >= 0) p[axes_.index[i]] = joints[columns[i]];
     return p;
   }
-  Vec3 tip_of_joints(const double* joints, const std::vector<int>& columns, const PathRow& row) const {
-    const auto p = by_letter(joints, columns);
+  // Compensation moves the axes off the programmed path, so that the tip of the true machine is on it: what
+  // it has added in this cycle is no error of the axes. Behind a play of 10a910 the load itself is where it
+  // is to be, and keeps it. Without `joints` nothing is known to be added.
+  Vec3 actual_tip(const double* loads, const double* joints, const PathRow& row) const {
+    auto p = by_letter(loads, drive_columns_);
+    if (joints == nullptr) return tip_of(p, row);
+    const auto compensated = by_letter(joints, gantry_columns_), programmed = machine_position(row);
+    for (std::size_t i = 0; i < axes_.index.size(); ++i) {
+      const auto letter = axes_.index[i];
+      if (gantry_columns_[i] >= 0 && !has_play_[i]) p[letter] -= compensated[letter] - programmed[letter];
+    }
+    return tip_of(p, row);
+  }
+  Vec3 tip_of(const AxisValues& p, const PathRow& row) const {
     return chain_.tip_from_machine({p[0], p[1], p[2]}, geometry::angles_of(p.data()), row.tool_length);
   }
 
@@ -280,6 +297,7 @@ class Evaluation {
   geometry::Chain chain_;
   machine::ChannelAxes axes_;
   std::vector<int> drive_columns_, gantry_columns_;
+  std::vector<bool> has_play_;
   std::optional<AxisValues> loads_before_;
   std::array<int, 9> approach_{};
 };

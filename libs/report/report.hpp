@@ -69,7 +69,8 @@ struct Report {
   double wall_seconds = 0;     ///< between the first and the last feedback of the motion
   double speed = 0;            ///< machine time over wall time; 0 when unknown
 
-  /// The actual positions are those of the encoders, behind the play of the axes (10a910).
+  /// The actual positions are those of the encoders, behind the play of the axes (10a910). Of an axis without
+  /// play what compensation has added in the same cycle is taken off: they are compared with its command.
   ContourError commanded_feed, commanded_rapid, actual_feed, actual_rapid;
   /// The same positions by the true geometry (ReportInputs::true_tip) in the place of the control's chain.
   ContourError true_feed, true_rapid;

@@ -83,7 +83,9 @@ std::string terminal_text(const Report& report) {
   text += row("  rapids, commands", contour(report.commanded_rapid));
   text += row("  rapids, encoders", contour(report.actual_rapid));
   if (report.true_rapid.cycles > 0) text += row("  rapids, true tip", contour(report.true_rapid));
-  text += row("Forward(inverse) kinematics",
+  // Rounding is far below a nanometre: what is more was added by compensation or gantry.
+  const bool compensated = report.residual_largest > 1e-6;
+  text += row(compensated ? "Compensation of the tip" : "Forward(inverse) kinematics",
               report.residual_cycles == 0
                   ? "no axis frames"
                   : "max " + length(report.residual_largest) + ", RMS " + length(report.residual_rms));

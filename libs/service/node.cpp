@@ -147,6 +147,7 @@ void Node::beat(const Health& health) {
   if (health.lifecycle == idl::service::Lifecycle::ACTIVE) notifier_.ready();
   last_beat_ = now;
   last_frames_ = health.frames_out;
+  bus_.backend().keep_up();
 }
 
 void Node::reset_alarms(Service& service, std::uint16_t channel) {
@@ -172,14 +173,17 @@ void Node::report_refusals() {
   std::uint64_t all = 0;
   for (const auto& [topic, refusals] : bus_.refusals()) all += refusals.count;
   if (all == refusals_told_) return;
-  std::string text;
+  std::string text, before;
   for (const auto& [topic, refusals] : bus_.refusals()) {
     auto& told = told_of_[topic];
-    if (refusals.count != told)
-      text += (text.empty() ? "" : "; ") + std::to_string(refusals.count - told) + " of " + topic +
-              ", the newest: " + refusals.newest;
+    if (refusals.count != told) {
+      text += (text.empty() ? "" : "; ") + std::to_string(refusals.count - told) + " of " + topic + " from " +
+              (refusals.writer == before ? "the same" : refusals.writer) + ", the newest: " + refusals.newest;
+      before = refusals.writer;
+    }
     told = refusals.count;
   }
+  bus_.refusals_told();
   refusals_told_ = all;
   alarms_.raise(alarm::message_refused, options_.instance, options_.service + " refused " + text);
   alarms_.release(alarm::message_refused, options_.instance);

@@ -20,7 +20,7 @@ bool ParameterClient::poll() {
   while (reader_.take(set)) {
     if (newest_ && set.revision == newest_->revision) continue;
     if (const auto why = refusal(set); !why.empty()) {
-      bus_.refuse(topics::parameter_set.name, why);
+      bus_.refuse(topics::parameter_set.name, why, reader_.info().writer);
       continue;
     }
     previous_ = newest_;

@@ -73,6 +73,15 @@ MotionFigures motion_figures(const AxisTrace& t, double settling) {
   return f;
 }
 
+double settling_time(double position_gain) {
+  return std::max(0.1, 6 / position_gain);  // exp(-6) is 0.25 %
+}
+
+double bearable_share(double speed, double position_gain, double limit) {
+  if (!(speed > 0) || !(limit > 0)) return 1;
+  return std::min(1.0, position_gain * limit / 2 / speed);
+}
+
 double reversal_jump(const AxisTrace& t, double window) {
   const std::size_t n = samples_of(window, t.interval);
   double jump = 0, direction = 0;

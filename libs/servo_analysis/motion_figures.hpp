@@ -32,6 +32,14 @@ struct MotionFigures {
 /// `settling` s at the beginning of each phase belong to the overshoot and not to ripple and following error.
 MotionFigures motion_figures(const AxisTrace& trace, double settling = 0.1);
 
+/// Time after which the following error of a position loop of `position_gain` 1/s without feed-forward is
+/// within 0.25 % of its final value, s; at least 0.1.
+double settling_time(double position_gain);
+
+/// Share of `speed` (mm/s or deg/s), at most 1, at which the following error of a position loop without
+/// feed-forward, speed over gain, is at most half of `limit` (mm or deg; 0: none).
+double bearable_share(double speed, double position_gain, double limit);
+
 /// Largest jump of the following error within `window` s after the setpoint has turned, mm or deg: largest
 /// less least value of feedback - setpoint in the window, less what it was in the window before. The feedback
 /// is that of the position loop.

@@ -72,7 +72,8 @@ std::optional<Unsealed> unseal(std::string_view name, std::string_view text, std
   unsigned format = 0;
   if (!parse(field(line, " format="), format) || format > kept_format)
     return refuse("its format is " + std::string(field(line, " format=")) +
-                  ", and this version reads up to " + std::to_string(kept_format));
+                  ", and this version reads up to " + std::to_string(kept_format) +
+                  ": install a newer version");
   if (const auto file = field(line, " file="); file != name)
     return refuse("it has the content of " + std::string(file));
   Unsealed result;

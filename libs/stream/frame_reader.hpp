@@ -26,8 +26,8 @@ class FrameReader {
     }
     return false;
   }
-  /// For what makes a frame impossible on this machine.
-  void refuse(const std::string& why) { bus_->refuse(topic_, why); }
+  /// For what makes the frame taken last impossible on this machine.
+  void refuse(const std::string& why) { bus_->refuse(topic_, why, reader_.info().writer); }
   const bus::SampleInfo& info() const { return reader_.info(); }
 
  private:

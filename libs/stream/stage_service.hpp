@@ -214,7 +214,8 @@ class StageService : public service::Service {
   // Every reader of the feedback costs the drive a message and this process a wake-up per frame.
   void follow_feedback() {
     bool wanted = needs_feedback() || !have_feedback_ || service::monotonic_seconds() < feedback_until_;
-    for (const auto& [channel, lane] : lanes_) wanted = wanted || !lane.in_step;
+    for (const auto& [channel, lane] : lanes_)
+      wanted = wanted || !lane.in_step || (lane.revision == 0 && lane.window.has_next());
     if (wanted && !feedback_reader_) {
       newest_feedback_.channels.clear();
       feedback_reader_.emplace(node_.bus(), topics::feedback_frame);
@@ -274,6 +275,17 @@ class StageService : public service::Service {
     lane.in_step = true;
   }
 
+  // The history of a process that has just started may begin with a motion whose parameters nobody publishes
+  // any more. When the drive is beyond it, nobody needs it.
+  void leave_out_what_was_executed(std::uint16_t channel, Lane& lane, const In& in) {
+    const auto* cut = echo_of(newest_feedback_, channel);
+    if (cut == nullptr || std::pair(cut->epoch, cut->next) <= std::pair(in.epoch, in.first)) return;
+    lane.in_step = false;
+    unknown_since_ = 0;
+    node_.alarms().clear(alarm::revision_unknown, channel);
+    join(channel, lane);
+  }
+
   bool use_revision(std::uint16_t channel, Lane& lane, std::uint64_t revision) {
     if (lane.revision == revision) return true;
     const auto parameters = parameters_.find(revision);
@@ -312,7 +324,10 @@ class StageService : public service::Service {
     if (!lane.in_step) join(channel, lane);
     if (!lane.in_step) return;
     while (const In* in = lane.window.peek()) {
-      if (!use_revision(channel, lane, in->revision)) return;
+      if (!use_revision(channel, lane, in->revision)) {
+        if (lane.revision == 0) leave_out_what_was_executed(channel, lane, *in);
+        return;
+      }
       // A start without a state: the drive and the channel that kept it were both restarted. Every replica
       // and every later process then starts as on a new machine.
       if (in->starts) {

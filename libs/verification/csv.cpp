@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "bus/json.hpp"
+#include "text/instant.hpp"
 #include "verification/frame_rows.hpp"
 
 namespace trunnion::verification {
@@ -33,6 +34,7 @@ void for_each_row(const StoredRecording& recording, const bus::TopicEntry& topic
     if (message.topic != &topic || !rows.load(topic, message.cdr)) continue;
     for (std::size_t i = 0; i < rows.rows(); ++i) {
       rows.fields(i, fields);
+      rows.append_uncompared(i, fields);
       visit(message, rows.span(), i, fields);
     }
   }
@@ -51,7 +53,7 @@ std::size_t write_csv(const StoredRecording& recording, const bus::TopicEntry& t
   const bool cyclic = is_cyclic(topic);
   out << (cyclic ? "cycle,channel,epoch" : "time_ns");
   for (const auto& column : columns) out << ',' << cell(column);
-  out << '\n';
+  out << ",time_utc\n";
   std::size_t lines = 0;
   std::vector<std::string> cells(columns.size());
   for_each_row(recording, topic,
@@ -64,7 +66,7 @@ std::size_t write_csv(const StoredRecording& recording, const bus::TopicEntry& t
                  else
                    out << message.time;
                  for (const auto& text : cells) out << ',' << text;
-                 out << '\n';
+                 out << ',' << text::instant(message.time, 9) << '\n';
                  ++lines;
                });
   return lines;

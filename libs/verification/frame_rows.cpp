@@ -125,4 +125,28 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
   }
 }
 
+void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) const {
+  const auto coupled = [&](const auto& frame) {
+    if (row >= frame.spindle.size()) return;
+    out.push_back({"spindle_axis", frame.spindle_axis});
+    out.push_back({"spindle", frame.spindle[row]});
+  };
+  const auto indexed = [&](const char* name, const auto& values, std::size_t first, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      out.push_back({std::string(name) + "[" + std::to_string(i) + "]", values[first + i]});
+  };
+  if (kind_ == Kind::path) coupled(path_);
+  if (kind_ == Kind::axis) coupled(axis_);
+  if (kind_ != Kind::feedback) return;
+  const auto& f = feedback_;
+  const std::size_t spindles = f.spindle_speed.size();
+  if ((row + 1) * spindles <= f.spindle_angle.size())
+    indexed("spindle_angle", f.spindle_angle, row * spindles, spindles);
+  if (row + 1 != rows_) return;
+  indexed("spindle_speed", f.spindle_speed, 0, spindles);
+  indexed("spindle_oriented", f.spindle_oriented, 0, f.spindle_oriented.size());
+  indexed("velocity", f.velocity, 0, f.velocity.size());
+  indexed("torque", f.torque, 0, f.torque.size());
+}
+
 }  // namespace trunnion::verification

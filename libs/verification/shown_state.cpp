@@ -230,12 +230,26 @@ std::map<std::string, Json> ShownState::answers() const {
   return answers;
 }
 
+namespace {
+bool is_planned(const Json& service) {
+  if (!service.is_object()) return true;
+  const auto expected = service.find("expected");
+  return expected == service.end() || !expected->is_boolean() || expected->get<bool>();
+}
+}  // namespace
+
 void take_out_clock(Json& document, std::uint32_t instance) {
   if (!document.is_object()) return;
   document.erase("trace");
+  document.erase("run_times");
+  if (const auto cluster = document.find("cluster"); cluster != document.end() && cluster->is_object())
+    cluster->erase("title");
   const auto own = std::to_string(instance);
   if (const auto services = document.find("services"); services != document.end() && services->is_object()) {
     services->erase(own);
+    // A process that the launcher does not name is shown only while it has a heartbeat.
+    for (auto entry = services->begin(); document.contains("cluster") && entry != services->end();)
+      entry = is_planned(*entry) ? std::next(entry) : services->erase(entry);
     for (auto& service : *services)
       if (service.is_object())
         for (const char* field : by_heartbeat) service.erase(field);

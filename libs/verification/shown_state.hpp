@@ -52,8 +52,9 @@ class ShownState {
   std::vector<std::uint16_t> columns_;
 };
 
-/// Takes out of a gateway's document what its clock has a say in (a sign of life that is too old, when an
-/// alarm was first heard of, what happened between two looks), and what it says of itself, `instance`.
+/// Takes out of a gateway's document what its clock has a say in (a sign of life that is too old, a process
+/// that the launcher does not name, when an alarm was first heard of, how long a program has run, what
+/// happened between two looks), the title, which machine.yaml has, and what it says of itself, `instance`.
 void take_out_clock(bus::Json& document, std::uint32_t instance);
 
 /// Where the two are not the same: path, what was expected, what is shown, in one line; empty when nowhere.

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "report/plot.hpp"
 
@@ -108,6 +109,27 @@ std::string suite_name(const std::string& recording) {
              : path.stem().string();
 }
 
+std::string verdict(const SuiteResult& result) {
+  if (result.passed) return "passed\">as recorded";
+  return result.skipped ? "skipped\">skipped: " + escaped(result.problem)
+                        : "failed\">" + escaped(result.problem);
+}
+
+std::string outcome_of(const std::vector<SuiteResult>& results) {
+  const auto failures = std::ranges::count_if(results, &SuiteResult::failed);
+  const auto skipped = std::ranges::count(results, true, &SuiteResult::skipped);
+  const auto counted = skipped == 0 ? "" : ", " + std::to_string(skipped) + " skipped";
+  if (is_passed(results)) return "<span class=\"passed\">all as recorded</span>" + counted;
+  if (failures == 0) return "<span class=\"failed\">nothing is verified</span>" + counted;
+  return "<span class=\"failed\">" + std::to_string(failures) + " not as recorded</span>" + counted;
+}
+
+// An attribute, when there is one.
+std::string skipped_count(std::span<const SuiteResult> results) {
+  const auto skipped = std::ranges::count(results, true, &SuiteResult::skipped);
+  return skipped == 0 ? "" : " skipped=\"" + std::to_string(skipped) + "\"";
+}
+
 constexpr const char* style =
     "body{font:15px/1.5 system-ui,sans-serif;margin:32px auto;max-width:900px;padding:0 16px;color:#1b2530}"
     "table{border-collapse:collapse;margin:12px 0}td,th{padding:4px 12px;border-bottom:1px solid "
@@ -119,6 +141,11 @@ constexpr const char* style =
 
 }  // namespace
 
+bool is_passed(const std::vector<SuiteResult>& results) {
+  return std::ranges::none_of(results, &SuiteResult::failed) &&
+         std::ranges::any_of(results, &SuiteResult::passed);
+}
+
 void judge(SuiteResult& result, int status, const std::string& output, const std::string& last_words) {
   result.report = bus::Json::parse(output, nullptr, false);
   if (result.report.is_discarded()) result.report = nullptr;
@@ -128,10 +155,13 @@ void judge(SuiteResult& result, int status, const std::string& output, const std
     result.problem = last_words.empty() ? "the verification ended without an answer" : last_words;
     return;
   }
+  result.problem = string_at(result.report, "skipped");
+  result.skipped = !result.problem.empty();
+  if (result.skipped) return;
   result.problem = string_at(result.report, "problem");
   if (result.problem.empty()) result.problem = string_at(result.report, "error");
-  if (const auto* first = first_of(result); first != nullptr && result.problem.empty())
-    result.problem = "first difference: " + headline(*first);
+  if (const auto* first = first_of(result); first != nullptr)
+    result.problem += (result.problem.empty() ? "" : "; ") + ("first difference: " + headline(*first));
   std::string missing;
   if (result.report.contains("missing") && result.report["missing"].is_array())
     for (const auto& name : result.report["missing"])
@@ -143,26 +173,27 @@ void judge(SuiteResult& result, int status, const std::string& output, const std
 }
 
 std::string junit_of(const std::string& title, const std::vector<SuiteResult>& results) {
-  const auto failures = std::ranges::count(results, false, &SuiteResult::passed);
+  const auto failures = std::ranges::count_if(results, &SuiteResult::failed);
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"" + escaped(title) +
                     "\" tests=\"" + std::to_string(results.size()) + "\" failures=\"" +
-                    std::to_string(failures) + "\">\n";
+                    std::to_string(failures) + "\"" + skipped_count(results) + ">\n";
   for (std::size_t begin = 0; begin < results.size();) {
     std::size_t end = begin;
     double seconds = 0;
     std::size_t failed = 0;
     for (; end < results.size() && results[end].recording == results[begin].recording; ++end)
-      seconds += results[end].seconds, failed += results[end].passed ? 0 : 1;
+      seconds += results[end].seconds, failed += results[end].failed() ? 1 : 0;
     const auto name = escaped(suite_name(results[begin].recording));
     xml += "  <testsuite name=\"" + name + "\" tests=\"" + std::to_string(end - begin) + "\" failures=\"" +
-           std::to_string(failed) + "\" time=\"" + seconds_text(seconds) + "\">\n";
+           std::to_string(failed) + "\"" + skipped_count(std::span(results).subspan(begin, end - begin)) +
+           " time=\"" + seconds_text(seconds) + "\">\n";
     for (; begin < end; ++begin) {
       const auto& result = results[begin];
       xml += "    <testcase classname=\"" + name + "\" name=\"" + escaped(result.name) + "\" time=\"" +
              seconds_text(result.seconds) + "\"";
-      xml += result.passed
-                 ? "/>\n"
-                 : ">\n      <failure message=\"" + escaped(result.problem) + "\"/>\n    </testcase>\n";
+      xml += result.passed ? "/>\n"
+                           : std::string(">\n      <") + (result.skipped ? "skipped" : "failure") +
+                                 " message=\"" + escaped(result.problem) + "\"/>\n    </testcase>\n";
     }
     xml += "  </testsuite>\n";
   }
@@ -170,19 +201,15 @@ std::string junit_of(const std::string& title, const std::vector<SuiteResult>& r
 }
 
 std::string html_of(const std::string& title, const std::vector<SuiteResult>& results) {
-  const auto failures = std::ranges::count(results, false, &SuiteResult::passed);
   std::string html =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + escaped(title) +
       "</title><style>" + style + "</style></head><body>\n<h1>" + escaped(title) + "</h1>\n<p>" +
-      std::to_string(results.size()) + " verifications, " +
-      (failures == 0 ? "<span class=\"passed\">all as recorded</span>"
-                     : "<span class=\"failed\">" + std::to_string(failures) + " not as recorded</span>") +
+      std::to_string(results.size()) + " verifications, " + outcome_of(results) +
       "</p>\n<table><tr><th>recording</th><th>service</th><th>result</th><th>time s</th></tr>\n";
   for (const auto& result : results) {
     html += "<tr><td>" + escaped(suite_name(result.recording)) + "</td><td>" + escaped(result.name) +
-            "</td><td class=\"" +
-            (result.passed ? "passed\">as recorded" : "failed\">" + escaped(result.problem)) + "</td><td>" +
-            seconds_text(result.seconds) + "</td></tr>\n";
+            "</td><td class=\"" + verdict(result) + "</td><td>" + seconds_text(result.seconds) +
+            "</td></tr>\n";
   }
   html += "</table>\n";
   for (const auto& result : results) {

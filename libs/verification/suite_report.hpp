@@ -16,10 +16,16 @@ struct SuiteResult {
   bool passed = false;
   std::string problem;  ///< one line, when it did not pass
   bus::Json report;     ///< what `trunnion verify --json` printed; null when it printed nothing
+  bool skipped =
+      false;  ///< the recording gives nothing to verify the service with; the reason is in `problem`
+  bool failed() const { return !passed && !skipped; }
 };
 
+/// A suite in which nothing was verified does not pass.
+bool is_passed(const std::vector<SuiteResult>& results);
+
 /// Of a verification that ended with `status` and printed `output`; `last_words` is the last line of its
-/// standard error. Fills passed, problem and report.
+/// standard error. Fills passed, skipped, problem and report.
 void judge(SuiteResult& result, int status, const std::string& output, const std::string& last_words);
 
 /// One test suite for each recording.

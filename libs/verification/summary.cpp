@@ -149,6 +149,7 @@ Summary summarize(recording::Source& source) {
   out.complete = reader.ending() == recording::Ending::complete;
   out.problem = reader.problem();
   out.damages = reader.damages();
+  out.compressions = reader.compressions();
   return out;
 }
 
@@ -157,6 +158,8 @@ std::string text_of(const Summary& s) {
   for (const auto& [name, value] : s.metadata) text += line("%-10s %s\n", name.c_str(), value.c_str());
   if (!s.same_contract) text += line("           this program's contract is %s\n", topics::contract_hash);
   text += line("%-10s %" PRIu64 " in %.3f s\n", "messages", s.messages, s.seconds());
+  for (const auto& [compression, chunks] : s.compressions)
+    text += line("%-10s %" PRIu64 ", compression %s\n", "chunks", chunks, compression.c_str());
   for (const auto& damage : s.damages) text += "damaged    " + recording::text_of(damage) + "\n";
   if (!s.complete && s.damages.empty()) text += "cut off    " + s.problem + "\n";
   std::string revisions;
@@ -220,17 +223,10 @@ bus::Json json_of(const Summary& s) {
                        {"repeated", c.repeated},
                        {"gaps", gaps}});
   }
-  return {{"metadata", s.metadata},
-          {"same_contract", s.same_contract},
-          {"complete", s.complete},
-          {"problem", s.problem},
-          {"messages", s.messages},
-          {"seconds", s.seconds()},
-          {"revisions", s.revisions},
-          {"topics", topics},
-          {"streams", streams},
-          {"services", s.participants},
-          {"without_state", s.without_state},
+  return {{"metadata", s.metadata}, {"same_contract", s.same_contract}, {"complete", s.complete},
+          {"problem", s.problem},   {"compressions", s.compressions},   {"messages", s.messages},
+          {"seconds", s.seconds()}, {"revisions", s.revisions},         {"topics", topics},
+          {"streams", streams},     {"services", s.participants},       {"without_state", s.without_state},
           {"damages", damages}};
 }
 

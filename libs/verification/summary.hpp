@@ -39,6 +39,7 @@ struct Summary {
   bool complete = false;
   std::string problem;
   std::vector<recording::Damage> damages;
+  std::map<std::string, std::uint64_t> compressions;  ///< chunks by compression: "zstd", "none"
   std::uint64_t messages = 0, first_time = 0, last_time = 0;
   std::vector<TopicSummary> topics;    ///< by handle
   std::vector<StreamSummary> streams;  ///< by topic in the order of the stream, channel and epoch

@@ -9,8 +9,10 @@
 #include "bus/bus.hpp"
 #include "cluster/child_process.hpp"
 #include "contracts/topics.hpp"
+#include "machine/machine.hpp"
 #include "service/node.hpp"
 #include "verification/answers.hpp"
+#include "verification/machine_values.hpp"
 #include "verification/repetitions.hpp"
 #include "verification/verify_gateway.hpp"
 #include "verification/verify_place.hpp"
@@ -222,6 +224,22 @@ VerifyResult verify_service(const VerifyOptions& options, const StoredRecording&
   return result;
 }
 
+// Which parameters the service gets, in one line when that needs saying.
+std::string choose_parameters(const VerifyOptions& options, StoredRecording& recording) {
+  const auto directory = machine_directory(options, recording);
+  const auto delivered = machine::machine_parameters(machine::load_machine(directory));
+  const auto apart = parameters_apart(recording, delivered);
+  if (!options.machine_parameters)
+    return apart.empty() ? ""
+                         : "those of the recording, which has its own; in " + directory + " " + apart +
+                               "; --machine-parameters uses the machine's";
+  if (options.service == "parameters")
+    throw std::runtime_error(
+        "--machine-parameters: the parameters are what service parameters writes: verify another one");
+  use_parameters(recording, delivered);
+  return "those of " + directory + ", " + (apart.empty() ? "as recorded" : apart);
+}
+
 }  // namespace
 
 VerifyResult verify(const VerifyOptions& options) {
@@ -229,13 +247,23 @@ VerifyResult verify(const VerifyOptions& options) {
   if (!recording.damages.empty()) throw std::runtime_error(options.recording + ": " + recording.problem);
   drop_repetitions(recording.messages);
   try {
+    require_contract(recording, options.service);
+    const auto parameters = choose_parameters(options, recording);
     auto result = options.service == "gateway" ? verify_gateway(options, recording)
                                                : verify_service(options, recording);
+    result.parameters = parameters;
     result.cut_off = recording.problem;
+    if (!result.equal())
+      if (const auto cut = interrupted_network(recording); !cut.empty())
+        result.problem += (result.problem.empty() ? "" : "; ") + cut;
     return result;
+  } catch (const NothingToVerify&) {
+    throw;
   } catch (const std::runtime_error& error) {
-    if (recording.complete) throw;
-    throw std::runtime_error(std::string(error.what()) + "; " + recording.problem);
+    const auto cut = interrupted_network(recording);
+    if (recording.complete && cut.empty()) throw;
+    throw std::runtime_error(error.what() + (cut.empty() ? "" : "; " + cut) +
+                             (recording.complete ? "" : "; " + recording.problem));
   }
 }
 

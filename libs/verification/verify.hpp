@@ -12,12 +12,13 @@
 namespace trunnion::verification {
 
 struct VerifyOptions {
-  std::string recording;      ///< file
-  std::string service;        ///< name as in machine.yaml
-  std::string executable;     ///< empty: the one beside this program
-  std::string vendor;         ///< empty: cyclonedds
-  std::string machine;        ///< name or directory; empty: the name the recording has
-  std::uint16_t channel = 0;  ///< of a channel service
+  std::string recording;            ///< file
+  std::string service;              ///< name as in machine.yaml
+  std::string executable;           ///< empty: the one beside this program
+  std::string vendor;               ///< empty: cyclonedds
+  std::string machine;              ///< name or directory; empty: the name the recording has
+  bool machine_parameters = false;  ///< those of the machine's directory instead of the recording's
+  std::uint16_t channel = 0;        ///< of a channel service
   std::optional<std::uint32_t> domain;
   double timeout = 5;  ///< s without progress after which the service has failed
   DiffOptions comparison;
@@ -25,8 +26,9 @@ struct VerifyOptions {
 
 struct VerifyResult {
   Difference difference;
-  std::string cut_off;  ///< where the recording ends too early; it was verified up to there
-  std::string problem;  ///< that kept the service from answering everything, or an alarm; one line
+  std::string parameters;  ///< which were used, in one line, when the machine's are or differ
+  std::string cut_off;     ///< where the recording ends too early; it was verified up to there
+  std::string problem;     ///< that kept the service from answering everything, or an alarm; one line
   std::size_t inputs = 0, outputs = 0, unrecorded = 0;
   /// Of the gateway: requests over HTTP, lines of its journal that could not be sent again, and how often
   /// what it shows was compared.
@@ -40,7 +42,7 @@ struct VerifyResult {
 
 /// The service is started in a domain of its own and stopped again, however this ends. Throws
 /// std::runtime_error when the recording cannot be used, as one of which something is missing in the middle,
-/// or the service cannot be started.
+/// or the service cannot be started; NothingToVerify (verify_plan.hpp) when the recording has nothing for it.
 VerifyResult verify(const VerifyOptions& options);
 
 }  // namespace trunnion::verification

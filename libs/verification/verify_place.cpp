@@ -26,19 +26,23 @@ VerifyPlace::~VerifyPlace() {
   if (fs::is_empty(run_.path(), ignored)) run_.remove();
 }
 
-std::vector<std::string> command_line(const VerifyOptions& options, const StoredRecording& recording,
-                                      const VerifyPlan& plan, const VerifyPlace& place) {
+std::string machine_directory(const VerifyOptions& options, const StoredRecording& recording) {
   std::string machine = options.machine;
   if (const auto name = recording.metadata.find("machine");
       machine.empty() && name != recording.metadata.end())
     machine = name->second;
   if (machine.empty())
     throw std::runtime_error(options.recording + ": it names no machine: say which with --machine");
+  return cluster::find_machine(machine);
+}
+
+std::vector<std::string> command_line(const VerifyOptions& options, const StoredRecording& recording,
+                                      const VerifyPlan& plan, const VerifyPlace& place) {
   std::vector<std::string> arguments{options.executable.empty()
                                          ? cluster::binary_directory() + "/trunnion-" + options.service
                                          : options.executable,
                                      "--machine",
-                                     cluster::find_machine(machine),
+                                     machine_directory(options, recording),
                                      "--state",
                                      place.state(),
                                      "--instance",

@@ -36,6 +36,10 @@ class VerifyPlace {
   std::string directory_;
 };
 
+/// Of the machine that the options or else the recording name. Throws std::runtime_error when neither does,
+/// or when there is none.
+std::string machine_directory(const VerifyOptions& options, const StoredRecording& recording);
+
 /// Of the service, on the recorded machine. Throws std::runtime_error when the recording names none.
 std::vector<std::string> command_line(const VerifyOptions& options, const StoredRecording& recording,
                                       const VerifyPlan& plan, const VerifyPlace& place);

@@ -9,7 +9,9 @@
 #include <stdexcept>
 
 #include "bus/codec.hpp"
+#include "cluster/instances.hpp"
 #include "contracts/topics.hpp"
+#include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/parameters.hpp"
 #include "machine/services.hpp"
@@ -242,6 +244,60 @@ VerifyPlan surroundings(const StoredRecording& recording, const std::string& ser
   return plan;
 }
 
+namespace {
+
+// Who has made it, in words.
+std::string origin_of(const StoredRecording& recording) {
+  const auto value = [&](const char* name) {
+    const auto found = recording.metadata.find(name);
+    return found == recording.metadata.end() ? std::string("unknown") : found->second;
+  };
+  return "version " + value("version") + ", contract " + value("contract");
+}
+
+[[noreturn]] void refuse_empty(const StoredRecording& recording, const std::string& service,
+                               std::uint16_t channel, const VerifyPlan& plan) {
+  const auto what = "the recording has no output of service " + service +
+                    (service == "channel" ? " " + std::to_string(channel) : "") +
+                    " that follows from its inputs";
+  const bool refused = plan.seed && !plan.seed->refused.empty();
+  const auto* stage = find_stage(service);
+  if (stage != nullptr && std::ranges::any_of(plan.steps, [stage](const Step& step) {
+        return step.message->topic->handle == stage->input;
+      }))
+    throw std::runtime_error(what + ", of which it has some");
+  if (!refused && recording.foreign.empty()) throw NothingToVerify(what + ": it had nothing to do");
+  throw std::runtime_error(
+      what +
+      (refused ? " and came behind its state, which it could not give before: " + plan.seed->refused : "") +
+      (recording.foreign.empty() ? ""
+                                 : "; it was made with another contract, for " + *recording.foreign.begin() +
+                                       " at least: the recording is of " + origin_of(recording)));
+}
+
+}  // namespace
+
+void require_contract(const StoredRecording& recording, const std::string& service) {
+  // plan_verification() says of others what they are.
+  const auto* definition = machine::find_service(service);
+  if (definition == nullptr || definition->not_verified) return;
+  // What every verification reads: kind of time and instance, the cycle, the state at the beginning.
+  const std::set<std::string> always = {"cluster", "parameter_set", "service_snapshot"};
+  for (const auto& name : recording.foreign) {
+    const auto* topic = bus::find_topic(name);
+    if (topic == nullptr) continue;
+    const bool compared = names(topic->writers, service) && !not_compared().contains(topic->handle) &&
+                          topic->qos != bus::QosKind::event;
+    const bool read = names(topic->readers, service) ||
+                      (names(topic->readers, "all") && topic->handle != "snapshot_request");
+    if (!compared && !read && !always.contains(topic->handle)) continue;
+    throw std::runtime_error("the recording is of " + origin_of(recording) + ": service " + service +
+                             " uses " + topic->handle +
+                             ", which has another form in this version (contract " + topics::contract_hash +
+                             "); verify it with the services of that version");
+  }
+}
+
 VerifyPlan plan_verification(const StoredRecording& recording, const std::string& service,
                              std::uint16_t channel) {
   auto plan = surroundings(recording, service, channel);
@@ -260,8 +316,8 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
     plan_stage(recording, *stage, plan);
   } else {
     if (says_when(service) && !plan.virtual_time)
-      throw std::runtime_error("service " + service +
-                               " cannot be verified: in real time its periods follow the clock");
+      throw NothingToVerify("service " + service +
+                            " cannot be verified: in real time its periods follow the clock");
     const auto seeds = find_seeds(recording, plan.instance);
     if (says_when(service)) {
       plan_by_tick(recording, service, seeds, plan);
@@ -275,16 +331,7 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
       definition != nullptr && definition->not_verified)
     throw std::runtime_error("service " + service +
                              " is not verified: what it writes depends on its own clock");
-  if (plan.expected.empty())
-    throw std::runtime_error(
-        "the recording has no output of service " + service +
-        (service == "channel" ? " " + std::to_string(channel) : "") + " that follows from its inputs" +
-        (plan.seed && !plan.seed->refused.empty()
-             ? " and came behind its state, which it could not give before: " + plan.seed->refused
-             : "") +
-        (recording.foreign.empty()
-             ? ""
-             : "; it was made with another contract, for " + *recording.foreign.begin() + " at least"));
+  if (plan.expected.empty()) refuse_empty(recording, service, channel, plan);
   return plan;
 }
 
@@ -344,6 +391,20 @@ std::string missing_request(const StoredRecording& recording) {
     if (!recorded.contains({reply.client, reply.number}))
       return "the recording has the reply to request " + std::to_string(reply.number) + " of client " +
              std::to_string(reply.client) + ", but not the request: record again";
+  }
+  return "";
+}
+
+std::string interrupted_network(const StoredRecording& recording) {
+  idl::service::Alarm alarm;
+  for (const auto& message : recording.messages) {
+    if (message.topic->handle != "alarm" || !bus::decode(message.cdr, alarm) || !alarm.active) continue;
+    // Of a launcher's number: a host, and not one of its services.
+    if (alarm.number != alarm::service_lost.number ||
+        cluster::place_of(alarm.part) < cluster::launcher_instance)
+      continue;
+    return "the network was interrupted (" + alarm.text.substr(0, alarm.text.find(':')) +
+           "): when the messages of that time arrived is not in the recording";
   }
   return "";
 }

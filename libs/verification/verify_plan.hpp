@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,19 @@ struct VerifyPlan {
   std::size_t drop_unrecorded(std::vector<StoredMessage>& produced) const;
 };
 
+/// The recording gives nothing to verify a service with, however right or wrong it is: it had nothing to do,
+/// or its periods followed the clock.
+class NothingToVerify : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Stages are fed by cycle: a frame when the drive had executed what the channel's credit for it needs and
 /// the stage is at most some frames behind; one that starts when everything before it is done; parameters
 /// before the first frame made with them. Other services are fed in the order of the recording, each message
 /// once the service has written what it had written before it. `channel` matters to a channel only.
-/// Throws std::runtime_error when the recording does not have what it takes.
+/// Throws std::runtime_error when the recording does not have what it takes, NothingToVerify when that is not
+/// its fault.
 VerifyPlan plan_verification(const StoredRecording& recording, const std::string& service,
                              std::uint16_t channel);
 VerifyPlan plan_verification(StoredRecording&&, const std::string&,
@@ -54,6 +63,11 @@ VerifyPlan plan_verification(StoredRecording&&, const std::string&,
 VerifyPlan surroundings(const StoredRecording& recording, const std::string& service,
                         std::uint16_t channel = 0);
 
+/// Throws std::runtime_error, one line with the version of the recording, when a topic that the service or
+/// its verification reads, or by which it is verified, is recorded in the form of another contract: what
+/// follows from it differs.
+void require_contract(const StoredRecording& recording, const std::string& service);
+
 /// The first cycles of the drive's feedback that the recorder has lost between those of `plan`, in one line;
 /// empty when it has them all.
 std::string missing_feedback(const VerifyPlan& plan);
@@ -61,6 +75,11 @@ std::string missing_feedback(const VerifyPlan& plan);
 /// The first request to a channel that the recording has the reply to, but not the request itself, in one
 /// line; empty when it has them all. Requests that were answered before the recording began do not count.
 std::string missing_request(const StoredRecording& recording);
+
+/// Why a recording of a machine on several hosts cannot be verified where its network was interrupted, in one
+/// line with the host that was silent; empty when none was. Messages have the time at which they were
+/// written: when they arrived behind an interruption, and in what order, is not recorded.
+std::string interrupted_network(const StoredRecording& recording);
 
 /// Alarms that `service` raises in `messages`: number, part and text of the first.
 std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> raised_alarms(

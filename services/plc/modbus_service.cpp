@@ -35,7 +35,7 @@ void ModbusService::pump(const PlcCore& core, double now) {
   if (link_.connections() == 0) return;
   link_.exchange(core.memory().registers);
   send(core.memory(), now);
-  show_problems(core.memory().tick);
+  show_problems(core.executed());
 }
 
 void ModbusService::send(const Memory& memory, double now) {
@@ -61,7 +61,7 @@ void ModbusService::send(const Memory& memory, double now) {
   }
 }
 
-void ModbusService::show_problems(std::uint64_t tick) {
+void ModbusService::show_problems(std::uint64_t cycle) {
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     const auto& problem = link_.problem(i);
     if (problem == shown_[i]) continue;
@@ -70,7 +70,7 @@ void ModbusService::show_problems(std::uint64_t tick) {
     if (problem.empty())
       node_.alarms().release(alarm::plc_modbus, part);
     else
-      node_.alarms().raise(alarm::plc_modbus, part, problem, tick);
+      node_.alarms().raise(alarm::plc_modbus, part, problem, cycle);
   }
 }
 

@@ -23,7 +23,7 @@ class ModbusService {
 
  private:
   void send(const Memory& memory, double now);
-  void show_problems(std::uint64_t tick);
+  void show_problems(std::uint64_t cycle);
 
   struct Sent {
     std::uint8_t value = 0;

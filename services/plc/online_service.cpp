@@ -342,7 +342,7 @@ void OnlineService::publish(double now) {
                                " of the PLC's values are forced, the first is " + forces.values[0].path +
                                " = " + forces.values[0].value +
                                ": release them with 'trunnion plc force --release'",
-                           core_.memory().tick);
+                           core_.executed());
   }
   if (now - written_ < watch_period) return;
   written_ = now;

@@ -130,7 +130,7 @@ void OrderService::show_messages() {
       shown_[number] = &alarm;
       const auto text = known ? found->second.text : "there is no text of this number in messages.yaml";
       node_.alarms().raise(alarm, number, "Message " + std::to_string(number) + ": " + text,
-                           core_.memory().tick);
+                           core_.executed());
       continue;
     }
     const auto& alarm = *shown_[number];

@@ -335,7 +335,7 @@ void PlcService::publish(double now) {
     if (core_.has_program_fault() != stopped_) {
       stopped_ = core_.has_program_fault();
       if (stopped_)
-        node_.alarms().raise(alarm::plc_program, 0, core_.program_fault(), outputs.tick);
+        node_.alarms().raise(alarm::plc_program, 0, core_.program_fault(), core_.executed());
       else
         node_.alarms().clear(alarm::plc_program, 0);
     }
@@ -343,7 +343,7 @@ void PlcService::publish(double now) {
       node_.alarms().raise(alarm::emergency_stop, 0,
                            "Emergency stop is active: release the button, reset the emergency stop, then the "
                            "alarms and the channel",
-                           outputs.tick);
+                           core_.executed());
     else
       node_.alarms().clear(alarm::emergency_stop, 0);
   }

@@ -37,6 +37,13 @@ int main(int argc, char** argv) {
          "MB that must be free on the disk for a start; below it a warning, below a tenth of it the end "
          "(default: 200; 0: not checked)")
       ->check(CLI::NonNegativeNumber);
+  app.add_option_function<std::string>(
+         "--compression",
+         [&options](const std::string& name) {
+           options.compression = name == "none" ? recording::Compression::none : recording::Compression::zstd;
+         },
+         "Of the chunks: none or zstd (default: zstd)")
+      ->check(CLI::IsMember({"none", "zstd"}));
   double part_mebibytes = 0;
   auto* part_size = app.add_option("--part-size", part_mebibytes,
                                    "MiB after which a new part starts, numbered FILE-0001 and so on")

@@ -274,7 +274,8 @@ int record(const Options& options) {
                           {{"machine", options.machine},
                            {"domain", std::to_string(options.network.domain)},
                            {"contract", topics::contract_hash},
-                           {"version", TRUNNION_VERSION}}};
+                           {"version", TRUNNION_VERSION}},
+                          options.compression};
   bus::use_clock_offset(options.network.clock_offset);
   FileThread file(options, header, queue);
   bus::Gathering gathering;

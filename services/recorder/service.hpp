@@ -9,6 +9,7 @@
 #include "contracts/types.hpp"
 #include "part_files.hpp"
 #include "recording/disk_space.hpp"
+#include "recording/mcap_writer.hpp"
 
 namespace trunnion::recorder {
 
@@ -25,6 +26,7 @@ struct Options {
   std::size_t queue_mebibytes = 256;
   /// Bytes; with less no recording starts. SpaceWatch; 0 = it is not checked.
   std::uint64_t free_space = default_free_space;
+  recording::Compression compression = recording::Compression::zstd;
   PartLimits parts;
   double last = 0;   ///< s; above 0: a flight recorder, which saves this time before an alarm
   double after = 1;  ///< s saved after the alarm

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every view in three sizes and two languages, dark and light: nothing is cut, everything can be touched, the keys that
 // stop are free, the digits are as large as promised, and axe-core has no serious findings.
-import { check as judged, coveredStops, inaccessible, openPage, overflowing, settled, shot, smallTargets } from "./harness.mjs";
+import {
+  check as judged, coveredStops, drawn, inaccessible, interceptStream, openPage, overflowing, pretend, settled, shot, smallTargets, stopPlaces,
+} from "./harness.mjs";
 
 const languages = {
   en: { locale: "en-GB", views: ["Operate", "3D", "Programs", "Setup", "Parameters", "Analysis", "Diagnosis"], estop: "Emergency stop", hold: "Feed hold", start: "Cycle start" },
@@ -37,6 +39,55 @@ function check(what, condition) {
   }
 }
 
+/** Keys of the navigation that are not whole on the screen. */
+const offScreen = (page) =>
+  page.getByRole("navigation").getByRole("button").evaluateAll((keys) =>
+    keys.map((key) => [key.textContent, key.getBoundingClientRect()])
+      .filter(([, box]) => box.left < 0 || box.top < 0 || box.right > innerWidth || box.bottom > innerHeight)
+      .map(([name]) => name));
+
+/** Whatever the state bar has to show, the keys that stop are where they were. */
+async function still(browser, url, code, { size }) {
+  const page = await openPage(browser, null, { size, locale: languages[code].locale });
+  const stream = await interceptStream(page);
+  const program = `${"long_".repeat(12)}a.nc`;  // 64 letters, as many as a name has
+  const path = { x: [], y: [], z: [], line: [], rapid: [], seconds: [], tolerance: 0 };
+  const planned = { program, revision: 1, channel: 0, complete: false, seconds: 41_025, moves: 1, lines: { line: [1], begin: [0] }, path };
+  await page.route(/long_.*\/plan/, (route) => route.fulfill({ json: planned }));
+  await page.goto(url);
+  await page.waitForSelector(".positions");
+  const where = `${code} ${size.join("x")}`;
+  const places = await stopPlaces(page);
+  const looks = async (what) => {
+    await drawn(page);
+    const now = await stopPlaces(page);
+    check(`${where} ${what}: the keys that stop are at ${places}, now at ${now}`, now === places);
+    const cut = (await overflowing(page)).filter((part) => /^(HEADER|DIV\.facts)/.test(part));
+    check(`${where} ${what}: the state bar holds it ${cut}`, cut.length === 0);
+  };
+  pretend(stream, { run_times: { 0: { ticks: 45_296_000, partial: true } } });
+  for (const state of ["IDLE", "RUNNING", "HOLDING", "HELD", "WAITING", "INTERRUPTED"]) {
+    pretend(stream, { channels: { 0: { state, mode: "AUTO", program, line: 123456, lines_total: 1234567 } } });
+    await page.locator(`[data-test=state][data-state=${state}]`).waitFor();
+    for (const time of ["elapsed", "remaining"]) await page.locator(`[data-test=${time}]`).waitFor();
+    await looks(state);
+  }
+  pretend(stream, { plc: { emergency_stop: true } });
+  await page.locator("[data-test=estop-engaged]").waitFor();
+  await looks("emergency stop");
+  const edge = await page.locator("[data-test=recover]").evaluate((key) => key.closest(".attention").getBoundingClientRect().right - key.getBoundingClientRect().right);
+  check(`${where}: the key that recovers is at the edge, alarm or not: ${edge} px from it`, edge < 20 || size[0] < 720);
+  if (code === "de") {
+    const text = "Z: following error 1.25 mm, at most 1 mm";
+    const alarm = { instance: 3, number: 111, part: 2, severity: "EMERGENCY", reaction: "AXIS_STOP", source: "drive", text, cycle: 1, occurrences: 1, since: "2000-01-01T00:00:00Z" };
+    pretend(stream, { alarms: { "3/111/2": alarm } });
+    const strip = page.locator("[data-test=attention]");
+    await strip.filter({ hasText: "Der Schleppfehler überschreitet seine Grenze" }).waitFor();
+    check(`${where}: an alarm is in the language of the page, with its numbers`, (await strip.innerText()).includes(text));
+  }
+  await page.context().close();
+}
+
 async function one(browser, url, code, { size, digits, operates }, colorScheme) {
   const { locale, views, estop, hold, start } = languages[code];
   const page = await openPage(browser, url, { size, locale, colorScheme });
@@ -45,6 +96,7 @@ async function one(browser, url, code, { size, digits, operates }, colorScheme) 
   const height = await page.locator("[data-test=position-X]").evaluate((element) => parseFloat(getComputedStyle(element).fontSize));
   check(`${where}: digits of ${height} px`, height >= digits);
   check(`${where}: cycle start is ${operates ? "" : "not "}offered`, (await page.getByRole("button", { name: start }).isVisible()) === operates);
+  const places = await stopPlaces(page);
   for (const [index, view] of views.entries()) {
     await open(page, index, view);
     if (index === 2) {
@@ -61,12 +113,13 @@ async function one(browser, url, code, { size, digits, operates }, colorScheme) 
     for (const name of [estop, hold]) check(`${where} ${view}: ${name} is there`, await page.getByRole("button", { name }).isVisible());
     const covered = await coveredStops(page);
     check(`${where} ${view}: the keys that stop are free ${covered}`, covered.length === 0);
+    check(`${where} ${view}: and where they were`, (await stopPlaces(page)) === places);
+    const away = await offScreen(page);
+    check(`${where} ${view}: every view can be reached ${away}`, away.length === 0);
     const small = await smallTargets(page);
     check(`${where} ${view}: touch targets of 48 px ${small}`, small.length === 0);
-    if (operates) {
-      const cut = await overflowing(page);
-      check(`${where} ${view}: nothing is cut ${cut}`, cut.length === 0);
-    }
+    const cut = (await overflowing(page)).filter((part) => operates || /^(HEADER|DIV\.facts|NAV)/.test(part));
+    check(`${where} ${view}: nothing is cut ${cut}`, cut.length === 0);
     const findings = await inaccessible(page);
     check(`${where} ${view}: axe-core ${findings}`, findings.length === 0);
     await shot(page, `${["operate", "scene", "programs", "setup", "parameters", "analysis", "diagnosis"][index]}-${size[0]}-${code}-${colorScheme}`);
@@ -77,7 +130,10 @@ async function one(browser, url, code, { size, digits, operates }, colorScheme) 
 
 export async function appearance(browser, url) {
   for (const size of sizes)
-    for (const [code, colorScheme] of [["en", "dark"], ["de", "light"]]) await one(browser, url, code, size, colorScheme);
+    for (const [code, colorScheme] of [["en", "dark"], ["de", "light"]]) {
+      await still(browser, url, code, size);
+      await one(browser, url, code, size, colorScheme);
+    }
 
   const page = await openPage(browser, url);
   await page.getByRole("combobox", { name: "Language" }).selectOption("zh");

@@ -241,7 +241,7 @@ export const overflowing = (page) =>
     const root = document.documentElement;
     const name = (element) => `${element.tagName}.${element.className} "${element.textContent.slice(0, 20)}" ${element.scrollWidth}x${element.scrollHeight} in ${element.clientWidth}x${element.clientHeight}`;
     const large = (element) => element.scrollWidth > element.clientWidth + 1 || element.scrollHeight > element.clientHeight + 1;
-    return [...document.querySelectorAll("section, header, nav, .rows, button")]
+    return [...document.querySelectorAll("section, header, .facts, nav, .rows, button")]
       .filter((element) => element.offsetParent !== null && !element.matches(".attention, .services, .list"))
       .filter(large)
       .map(name)
@@ -268,6 +268,31 @@ export const coveredStops = (page) =>
       return free ? [] : [button.textContent];
     }),
   );
+
+/** Where the keys that stop are. */
+export const stopPlaces = (page) =>
+  page.evaluate(() => [...document.querySelectorAll(".stops button")].map((key) => key.getBoundingClientRect()).map(({ x, y, width, height }) => [x, y, width, height].map(Math.round).join()).join(" "));
+
+/** Before the page is opened: passes its stream on. Gives the connection it has, into which messages can be put. */
+export async function interceptStream(page) {
+  let current;
+  await page.routeWebSocket(/api\/stream/, (socket) => {
+    const server = socket.connectToServer();
+    const own = (current = { sequence: 0, send: (message) => socket.send(JSON.stringify(message)) });
+    socket.onMessage((message) => server.send(message));
+    server.onMessage((text) => {
+      own.sequence = JSON.parse(text).sequence ?? own.sequence;
+      socket.send(text);
+    });
+  });
+  return () => current;
+}
+
+/** What the page is told besides, by a merge patch: parts of the state in `changes`. */
+export function pretend(stream, changes) {
+  const { sequence, send } = stream();
+  send({ sequence, since: sequence, changes });
+}
 
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 

@@ -14,20 +14,56 @@ import { programs } from "./programs.mjs";
 import { scene } from "./scene.mjs";
 import { setup } from "./setup.mjs";
 
+/** How the parts that show values are drawn. */
+const coloured = (page) =>
+  page.evaluate(() => [...document.querySelectorAll("header > :not(.stops), .attention, main")].map((element) => getComputedStyle(element).filter));
+
+/** Texts outside `selector` that are at least as large as it. */
+const asLargeAs = (page, selector) =>
+  page.evaluate((wanted) => {
+    const size = (element) => parseFloat(getComputedStyle(element).fontSize);
+    const largest = document.querySelector(wanted);
+    return [...document.querySelectorAll("body *")]
+      .filter((element) => element.getClientRects().length > 0 && !element.contains(largest) && element.textContent && size(element) >= size(largest))
+      .map((element) => `${element.tagName}.${element.className} ${size(element)}`);
+  }, selector);
+
+/** Keys and fields that `selector`, which is shown, lies over. */
+const coveredKeys = (page, selector) =>
+  page.evaluate((what) => {
+    const over = document.querySelector(what)?.getBoundingClientRect();
+    if (!over) return [];
+    return [...document.querySelectorAll("button, input, select, textarea")]
+      .filter((key) => key.getClientRects().length > 0)
+      .filter((key) => {
+        const box = key.getBoundingClientRect();
+        return box.left < over.right && over.left < box.right && box.top < over.bottom && over.top < box.bottom;
+      })
+      .map((key) => key.getAttribute("aria-label") ?? key.textContent);
+  }, selector);
+
 async function run(page, url) {
   const text = (selector) => page.locator(selector).first().innerText();
   const shown = (name) => page.locator(`[data-test="${name}"]`).getAttribute(`data-${name}`);
   const at = (name) => page.locator(`[data-test="${name}"]`);
-  check("the machine has a name", (await text('[data-test="machine"]')).length > 0);
+  const titled = (shown) => shown.length > 0 && (TRUNNION_URL !== undefined || shown === "Gateway test");
+  const machine = await eventually("the machine has its title", () => text('[data-test="machine"]'), titled);
+  await eventually("and the tab of the browser has it, too", () => page.title(), (title) => title === machine);
   check("and it is said that nobody needs to log in", TRUNNION_URL !== undefined || (await appears(page.getByText("no login", { exact: true }))));
   await eventually("nothing covers the page when the connection is there", async () => (await page.locator(".lost").count()) === 0);
   check("nothing covers the page when the connection is there", true);
   const refuse = page.waitForResponse((response) => response.url().endsWith("/mdi"));
   await at("mdi").fill("?? X1");
-  await told(page, /^MDI: /, () => at("mdi-send").click(), { refused: true });
+  await told(page, /^MDI:(?!\s*MDI)/, () => at("mdi-send").click(), { refused: true });
   check("bad MDI is answered with 409 or 400", [400, 409].includes((await refuse).status()));
   check("and the reason is on the page", true);
   check("and the line stays to be corrected", (await at("mdi").inputValue()) === "?? X1");
+  const under = await coveredKeys(page, ".notice");
+  check(`and covers no key ${under}`, under.length === 0);
+  await at("view-diagnosis").click();
+  await page.locator(".notice").waitFor({ state: "detached" });
+  check("and is not taken into another view", true);
+  await at("view-operate").click();
   await at("mdi").fill("");
 
   if (!TRUNNION_URL) {
@@ -176,11 +212,22 @@ async function run(page, url) {
     check(`a lost connection is unmistakable, after ${Date.now() - stopped} ms`, (await text(".lost h1")) === "Connection lost");
     const covered = await coveredStops(page);
     check(`and does not cover the keys that stop ${covered}`, covered.length === 0);
+    check("no value keeps its colour", (await coloured(page)).every((filter) => filter === "grayscale(1)"));
+    check("nobody says that the cluster is ready", (await text("[data-test=cluster]")) === "Connection lost");
+    for (const [width, height] of [[390, 844], [1920, 1080], [1280, 800]]) {
+      await page.setViewportSize({ width, height });
+      await eventually("the page has its new size", () => page.evaluate(() => innerWidth), (now) => now === width);
+      const large = await asLargeAs(page, ".lost h1");
+      check(`nothing at ${width}x${height} is as large as the loss ${large}`, large.length === 0);
+      const cut = await page.locator(".lost").evaluate((element) => element.scrollWidth > element.clientWidth || element.scrollHeight > element.clientHeight);
+      check(`and the loss fits at ${width}x${height}`, !cut);
+    }
     await shot(page, "lost");
     const continued = Date.now();
     signalGateway("SIGCONT");
     await eventually("the page is connected again", async () => (await page.locator(".lost").count()) === 0);
     check(`and it heals by itself, after ${Date.now() - continued} ms`, true);
+    check("the values have their colour again", (await coloured(page)).every((filter) => filter === "none"));
     signalGateway("SIGKILL");
     await page.waitForSelector(".lost h1");
     check("a gateway that has ended is a lost connection, too", true);

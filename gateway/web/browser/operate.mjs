@@ -107,6 +107,11 @@ async function alarmsAndStops(page, url) {
   await page.getByRole("button", { name: "Cycle start" }).click();
   await eventually("the program runs", async () => (await channelState(url)).state === "RUNNING");
   await eventually("the running time counts", async () => /\d:\d\d:\d\d/.test(await page.locator("[data-test=elapsed]").innerText()));
+  const elapsed = async () => (await page.locator("[data-test=elapsed]").innerText()).split(":").reduce((sum, part) => 60 * sum + Number(part), 0);
+  const before = await eventually("a second has passed", elapsed, (seconds) => seconds >= 1);
+  await page.reload();
+  const after = await elapsed();
+  check(`a page that is opened anew has the time of the whole run: ${before} s, then ${after} s`, after >= before);
   await eventually("distance to go is shown", async () => (await page.locator("[data-test=to-go-X]").innerText()) !== "0.000");
   await page.getByRole("button", { name: "Parameters", exact: true }).click();
   await page.locator("[data-test=view-parameters][aria-current=page]").waitFor();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The 3D view: loaded when it is opened, grows with the executed path, draws nothing for a hidden tab. Its frame rate with
 // 200,000 segments is printed, not judged: it depends on the computer, and here no graphics card draws.
-import { channelState, check, drawn, eventually, openPage, post, settled, shot, streamed } from "./harness.mjs";
+import { channelState, check, drawn, eventually, interceptStream, openPage, post, pretend, settled, shot, streamed } from "./harness.mjs";
 
 const frames = (page) => page.locator("[data-test=scene]").evaluate((canvas) => Number(canvas.dataset.frames ?? 0));
 const segments = (page) => page.locator("[data-test=scene]").evaluate((canvas) => Number(canvas.dataset.segments ?? 0));
@@ -123,21 +123,46 @@ async function growing(browser, url) {
   await page.context().close();
 }
 
+/** What is seen when the view is opened: at first everything, then what the operator has chosen. */
+async function standpoints(browser, url) {
+  await select(url, "nas979_cone.nc");
+  const page = await openPage(browser, url);
+  const picture = page.locator("[data-test=scene]");
+  const standpoint = () => picture.evaluate((canvas) => (canvas.dataset.standpoint ?? "").split(",").map(Number));
+  const same = (a, b) => a.length === b.length && a.every((one, i) => Math.abs(one - b[i]) < 1e-3);  // um, and pixels of a metre
+  await open(page);
+  await eventually("the programmed path is drawn", () => picture.evaluate((canvas) => Number(canvas.dataset.programmed ?? 0)), (count) => count > 100);
+  await drawn(page);
+  const first = await standpoint();
+  await look(page, "Whole");
+  check("the view opens with the whole machine and the path", same(await standpoint(), first));
+  await picture.click();
+  check("a click chooses nothing", !(await page.evaluate(() => localStorage.getItem("trunnion.scene"))));
+  await look(page, "Front");
+  const front = await standpoint();
+  await picture.hover();
+  await page.mouse.wheel(0, -300);
+  await eventually("the wheel zooms", standpoint, (now) => !same(now, front));
+  await drawn(page);
+  const chosen = await standpoint();
+  await page.getByRole("button", { name: "Operate", exact: true }).click();
+  await page.waitForSelector(".positions");
+  await open(page);
+  await eventually("the view is as it was left", standpoint, (now) => same(now, chosen));
+  await page.reload();
+  await page.waitForSelector(".positions");
+  await open(page);
+  await eventually("the view is as it was left before the page was loaded again", standpoint, (now) => same(now, chosen));
+  check(`the view is remembered: ${chosen}`, true);
+  await page.context().close();
+}
+
 /** Passes the stream on, and puts messages with a long path into it. */
 async function many(browser, url, rows) {
   const page = await openPage(browser, null);
   const point = (i) => [80 * Math.cos(i / 50) * (1 - i / rows / 2), 80 * Math.sin(i / 50) * (1 - i / rows / 2), -i / 2000, 0, 0];
   const part = Math.min(rows, 5000);
-  let stream;
-  await page.routeWebSocket(/api\/stream/, (socket) => {
-    const server = socket.connectToServer();
-    const own = (stream = { sequence: 0, send: (message) => socket.send(JSON.stringify(message)) });
-    socket.onMessage((message) => server.send(message));
-    server.onMessage((text) => {
-      own.sequence = JSON.parse(text).sequence ?? own.sequence;
-      socket.send(text);
-    });
-  });
+  const stream = await interceptStream(page);
   await page.goto(url);
   await page.waitForSelector(".positions");
   await open(page);
@@ -145,10 +170,10 @@ async function many(browser, url, rows) {
   // such a loss costs is sent on top.
   for (let [sent, there] = [0, await segments(page)]; there < rows - 1; sent += part) {
     const points = Array.from({ length: part }, (_, i) => point((sent + i) % rows));
-    const { sequence, send } = stream;
-    send({ sequence, since: sequence, changes: { trace: { first: 1 + sent, since: points.map((_, i) => i), axes: [0, 1, 2, 3, 4], rows: points } } });
+    const { send } = stream();
+    pretend(stream, { trace: { first: 1 + sent, since: points.map((_, i) => i), axes: [0, 1, 2, 3, 4], rows: points } });
     const before = there;
-    there = await eventually(`a part of the long path is there, beyond ${before} segments`, () => segments(page), (count) => count > before || stream.send !== send);
+    there = await eventually(`a part of the long path is there, beyond ${before} segments`, () => segments(page), (count) => count > before || stream().send !== send);
   }
   await look(page, "Space");
   const box = await page.locator("[data-test=scene]").boundingBox();
@@ -173,6 +198,7 @@ async function many(browser, url, rows) {
 }
 
 export async function scene(browser, url) {
+  await standpoints(browser, url);
   await growing(browser, url);
   for (const rows of [101, 200_001]) await many(browser, url, rows);
 }

@@ -260,7 +260,10 @@ export interface Axis {
 
 export interface ClusterState {
   domain: number;
+  /** Its name */
   machine: string;
+  /** Of the machine, for people */
+  title: string;
   ready: boolean;
   virtual_time: boolean;
   /** Cycles the channel may run ahead of the drive */
@@ -326,6 +329,14 @@ export interface Revisions {
   programs?: number;
 }
 
+/** The time of the program of a channel since its start, holds included; the last one when none runs. */
+export interface RunTime {
+  /** Periods of the drive, as tick of DriveState */
+  ticks: number;
+  /** It ran before the gateway did: the time is longer */
+  partial: boolean;
+}
+
 /** The state of the cluster as the stream carries it; services by instance, channels and axes by number. */
 export interface MachineState {
   cluster?: ClusterState;
@@ -333,6 +344,8 @@ export interface MachineState {
   alarms: Record<string, Alarm>;
   channels: Record<string, ChannelState>;
   axes: Record<string, Axis>;
+  /** How long programs have run, by the number of the channel */
+  run_times?: Record<string, RunTime>;
   drive?: DriveState;
   plc?: PlcState;
   trace?: Trace;

@@ -5,6 +5,16 @@ export function millimetres(value: number, decimals = 3): string {
   return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "\u2212");
 }
 
+/** The numbers at an axis, `step` apart: with the decimals of the step, whatever its size. */
+export function tickTexts(values: readonly number[], step: number): string[] {
+  let decimals = 0;
+  for (; decimals < 12; ++decimals) {
+    const scaled = step * 10 ** decimals;
+    if (Math.abs(scaled - Math.round(scaled)) <= 1e-6 * scaled) break;
+  }
+  return values.map((value) => millimetres(value, decimals));
+}
+
 export function whole(value: number): string {
   return Math.round(value).toString();
 }
@@ -55,4 +65,9 @@ export function limits(minimum: number | undefined, maximum: number | undefined)
 /** "mm/min|deg/min" of the catalogue -> "mm/min or °/min". */
 export function unit(text: string, or = "or"): string {
   return text.replace(/deg/g, "°").replace(/\|/g, ` ${or} `).replace(/2$|2(?= )/g, "²");
+}
+
+/** What was not done, and why; the channel names MDI, with line and column, in its reasons itself. */
+export function refusal(what: string, reason: string): string {
+  return reason.startsWith(`${what}:`) ? reason : `${what}: ${reason}`;
 }

@@ -2,6 +2,7 @@
 import { render } from "preact";
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
+import "./state_bar.css";
 import { readCyclePeriod } from "./state/cycle_period";
 import { followPlan } from "./state/plan";
 import { applyPreferences } from "./state/preferences";

@@ -3,6 +3,8 @@ import { expect, test } from "vitest";
 import { axisColumns, BadCsv, csvOf, parseCsv, rowAt, type Recording, withLetters } from "../src/analysis/recording";
 import { Sampler } from "../src/analysis/sampler";
 import { derivative, difference, envelope, largest, quantityOf, spectrum, startOfMotion } from "../src/analysis/signals";
+import { tipColumns } from "../src/analysis/tip";
+import { Chain } from "../src/scene/chain";
 
 const bytes = (text: string) => new TextEncoder().encode(text);
 const recording = (columns: Record<string, number[]>, cycles?: number[]): Recording => {
@@ -100,6 +102,35 @@ test("the speed of two axes is that of their vector, also where rows are missing
   for (const value of quantityOf("following", ["Y"], positions, commanded, cycles, 0.001)!) expect(value).toBeCloseTo(-0.4, 9);
   expect(quantityOf("following", ["X"], positions, new Map(), cycles, 0.001)).toBeUndefined();
   expect(derivative([1], [1], 0.001)[0]).toBe(0);
+});
+
+test("the speed on the workpiece is the tip's, whatever the axes do to keep it", () => {
+  // The table turns about -Z through machine X0 Y0: a point (x, y) of the workpiece is at Rz(-C) (x, y). The tip goes along X of
+  // the workpiece with 33.95 mm/s at Y-20, from X-50, while C turns with 60 deg/s: worked out here, without the chain.
+  const [speed, omega, toolLength] = [33.95, Math.PI / 3, 100];
+  const columns = (delay: number) => {
+    const at = (of: (x: number, turned: number) => number) =>
+      Float64Array.from({ length: 3001 }, (_, i) => of(-50 + speed * (i / 1000 + delay), omega * (i / 1000 + delay)));
+    return new Map([
+      ["X", at((x, c) => Math.cos(c) * x + Math.sin(c) * -20)],
+      ["Y", at((x, c) => -Math.sin(c) * x + Math.cos(c) * -20)],
+      ["Z", at(() => -300 + toolLength)],
+      ["C", at((_, c) => (c * 180) / Math.PI)],
+    ]);
+  };
+  const parameters: Record<number, number> = { 402: 1, 425: 5, 431: -1, 437: -400, 932: 1, 936: 1, 940: 1 };
+  const chain = new Chain((offset) => parameters[offset] ?? 0);
+  const cycles = Float64Array.from({ length: 3001 }, (_, i) => i);
+  const tips = tipColumns(chain, columns(0), toolLength);
+  const ahead = tipColumns(chain, columns(0.01), toolLength);
+  for (const value of quantityOf("speed", ["X", "Y", "Z"], tips, ahead, cycles, 0.001)!) expect(value).toBeCloseTo(speed, 6);
+  // Commanded 10 ms ahead: 0.3395 mm along the path.
+  for (const value of quantityOf("following", ["X", "Y", "Z"], tips, ahead, cycles, 0.001)!) expect(value).toBeCloseTo(speed * 0.01, 9);
+  // Of the machine's axes it is |(v - 20 w, -w x)| with w = pi / 3: 13.01 mm/s where x = 0, 55.8 mm/s where x = 51.85.
+  const axes = quantityOf("speed", ["X", "Y", "Z"], columns(0), new Map(), cycles, 0.001)!;
+  expect(Math.min(...axes)).toBeCloseTo(speed - 20 * omega, 2);
+  expect(Math.max(...axes)).toBeCloseTo(Math.hypot(speed - 20 * omega, 51.85 * omega), 1);
+  expect(tipColumns(chain, new Map(), toolLength).size).toBe(0);
 });
 
 test("a sine has its frequency and amplitude in the spectrum, over an offset and a slope", () => {

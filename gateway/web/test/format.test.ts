@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import { bytes, compact, duration, limits, millimetres, title, unit } from "../src/format";
+import { bytes, compact, duration, limits, millimetres, refusal, tickTexts, title, unit } from "../src/format";
 
 test("a position never reads minus zero and a negative one has a minus sign", () => {
   expect(millimetres(-0.0001)).toBe("0.000");
@@ -22,4 +22,17 @@ test("what the catalogue writes for programs is shown for people", () => {
   expect(limits(undefined, undefined)).toBe("");
   expect(unit("mm/s2|deg/s2")).toBe("mm/s² or °/s²");
   expect(unit("cycles")).toBe("cycles");
+});
+
+test("a refusal names what was not done once", () => {
+  expect(refusal("MDI", "MDI:1:4: unknown word")).toBe("MDI:1:4: unknown word");
+  expect(refusal("MDI", "no MDI while a program runs")).toBe("MDI: no MDI while a program runs");
+  expect(refusal("T1", "T12: not there")).toBe("T1: T12: not there");
+});
+
+test("the numbers at an axis have the decimals of its step", () => {
+  expect(tickTexts([0, 0.00002, 0.00004], 0.00002)).toEqual(["0.00000", "0.00002", "0.00004"]);
+  expect(tickTexts([0, 2.5e-5, 5e-5], 2.5e-5)).toEqual(["0.000000", "0.000025", "0.000050"]);
+  expect(tickTexts([-0.1, 0, 0.1 + 0.2], 0.1)).toEqual(["\u22120.1", "0.0", "0.3"]);
+  expect(tickTexts([0, 2500, 5000], 2500)).toEqual(["0", "2500", "5000"]);
 });

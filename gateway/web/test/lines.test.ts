@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import { follow, ProgramText } from "../src/program/lines";
+import { follow, lineBreak, ProgramText } from "../src/program/lines";
 
 const text = (value: string) => new ProgramText(new TextEncoder().encode(value));
 
@@ -8,6 +8,19 @@ test("lines end at LF or CR LF, and a last line end makes no empty line", () => 
   const program = text("%1\r\nG0 X1\nM30\n");
   expect(program.count).toBe(3);
   expect([1, 2, 3].map((line) => program.line(line))).toEqual(["%1", "G0 X1", "M30"]);
+});
+
+test("lines end at CR, too, alone or among others", () => {
+  const program = text("%\rO100\r\rG0 X1\nM30\r\n%\r");
+  expect(program.count).toBe(6);
+  expect([1, 2, 3, 4, 5, 6].map((line) => program.line(line))).toEqual(["%", "O100", "", "G0 X1", "M30", "%"]);
+});
+
+test("the editor cuts a text where its lines end", () => {
+  expect(lineBreak("G0 X1\rM30\r")).toBe("\r");
+  expect(lineBreak("G0 X1\r\nM30")).toBe("\r\n");
+  expect(lineBreak("G0 X1\nM30\r\n")).toBe("\n");
+  expect(lineBreak("M30")).toBe("\n");
 });
 
 test("a program without a last line end, one of an empty line, and an empty one", () => {

@@ -41,10 +41,15 @@ test("Structured Text has its colours, also in comments over several lines", () 
     ["IF", "keyword"], ["AND", "keyword"], [">=", "operator"], ["16#FF", "number"], ["THEN", "keyword"], ["(*", "comment"], [" a", "comment"],
     ["b *)", "comment"], ["%Y16.0", "propertyName"], [":=", "operator"], ["TRUE", "keyword"], ["TON", "typeName"], ["// end", "comment"],
   ]);
+  expect(kinds(["(* a (* b", "*) c", "*) IF /* d /* e */ f */ IF"])).toEqual([
+    ["(*", "comment"], [" a (*", "comment"], [" b", "comment"], ["*)", "comment"], [" c", "comment"], ["*)", "comment"], ["IF", "keyword"],
+    ["/*", "comment"], [" d /*", "comment"], [" e */", "comment"], [" f */", "comment"], ["IF", "keyword"],
+  ]);
   expect(kinds(["s := 'it$'s'; d := T#1h30m;"])).toEqual([[":=", "operator"], ["'it$'s'", "string"], [":=", "operator"], ["T#1h30m", "number"]]);
 });
 
 test("an instruction is one where a line of a list begins with it", () => {
   expect(kinds(["LD s", "ST %Y0.1"], true)).toEqual([["LD", "keyword"], ["ST", "keyword"], ["%Y0.1", "propertyName"]]);
   expect(kinds(["s := ld;"])).toEqual([[":=", "operator"]]);
+  expect(kinds(["e : FALLING_EDGE;"])).toEqual([["FALLING_EDGE", "typeName"]]);
 });

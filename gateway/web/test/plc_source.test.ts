@@ -2,7 +2,7 @@
 import { expect, test } from "vitest";
 import { declared, devices, inputBits, Paths, sourceLines } from "../src/plc/source";
 
-const source = `(* main task
+const source = `(* main task (* or another *)
    of two lines: ignored *)
 PROGRAM main
 VAR code AT %W1 : UINT; changer : TON; END_VAR
@@ -26,6 +26,11 @@ test("names of a line are found without comments and strings", () => {
   expect(lines[11]).toMatchObject({ unit: "Counter", kind: "FUNCTION_BLOCK", names: ["n", "step"] });
   expect(lines[13]!.unit).toBe("");
   expect(lines.map(({ text }) => text).join("\n")).toBe(source);
+});
+
+test("a comment begins in no string, also of wide characters", () => {
+  const lines = sourceLines(`a := "(*"; b := 'x /*';\nc := "it$"s // d"; e := 1;`);
+  expect(lines.map(({ names }) => names)).toEqual([["a", "b"], ["c", "e"]]);
 });
 
 test("a name is that of the program, else of the whole, else a register", () => {

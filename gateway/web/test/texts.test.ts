@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
 import { alarmCatalogue } from "../src/alarm_catalogue";
-import { explanation } from "../src/state/alarms";
+import { explanation, wording } from "../src/state/alarms";
 import { languageOf, themeOf } from "../src/state/preferences";
 import { languages } from "../src/text/texts";
 
@@ -39,10 +39,20 @@ test("every machine alarm has cause and remedy; alarms of the language name thei
   for (const [number, languagesOfOne] of Object.entries(alarmCatalogue)) {
     expect(Object.keys(languagesOfOne), number).toEqual(Object.keys(languages));
     const shown = Object.values(languages).map((texts) => explanation({ number: Number(number) }, texts)!);
+    expect(new Set(Object.values(languagesOfOne).map((one) => one.text)).size, `${number}: text`).toBe(3);
     expect(new Set(shown.map((one) => one.cause)).size, `${number}: cause`).toBe(3);
     expect(new Set(shown.map((one) => one.remedy)).size, `${number}: remedy`).toBe(3);
   }
   expect(explanation({ number: 130 }, languages.de)?.cause).toContain("Not-Halt");
   expect(explanation({ number: 1107 }, languages.de)).toEqual({ cause: "", remedy: languages.de.languageRemedy });
   expect(explanation({ number: 9999 }, languages.en)).toBeUndefined();
+});
+
+test("an alarm says in the operator's language what it is, and keeps the numbers of the service's text", () => {
+  const alarm = { number: 111, part: 2, text: "Z: following error 1.25 mm, at most 1 mm" };
+  expect(wording(alarm, languages.en)).toEqual({ text: alarm.text, detail: "" });
+  expect(wording(alarm, languages.de)).toEqual({ text: "Der Schleppfehler überschreitet seine Grenze", detail: alarm.text });
+  expect(wording({ ...alarm, text: "The following error exceeds its limit" }, languages.zh)).toEqual({ text: "跟随误差超过限值", detail: "" });
+  expect(wording({ number: 151, part: 0, text: "Werkstück wenden" }, languages.de)).toEqual({ text: "Werkstück wenden", detail: "" });
+  expect(wording({ number: 1107, part: 0, text: "A.NC:1:2: G7" }, languages.de)).toEqual({ text: "A.NC:1:2: G7", detail: "" });
 });

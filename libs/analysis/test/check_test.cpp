@@ -139,6 +139,45 @@ TEST(Summary, MainProgramThatRepeatsIsRunOnce) {
   EXPECT_THAT(summary_of("G0 X1\nX2\nM99\n"), HasSubstr("2 rapid"));
 }
 
+// The second pass shows that the first was no beginning of something else.
+TEST(Summary, AProgramThatRepeatsForEverIsSaidOnce) {
+  const std::string from = "part.nc:1: the program repeats for ever from line 1;";
+  EXPECT_THAT(summary_of("N1 G0 X1\nX2\nM99 P1\n"), testing::AllOf(HasSubstr(from), HasSubstr("4 rapid")));
+  for (const char* program : {
+           "N1 G91 G0 X1\nGOTO 1\n",                                         // the position grows
+           "N5 GOTO 5\n",                                                    // without motion
+           "WHILE [1 EQ 1]\nENDW\n",                                         //
+           "N1 #1=0\nWHILE [#1 LT 3] DO1\n#1=#1+1\nG0 X#1\nEND1\nM99 P1\n",  // with a loop that ends in it
+           "N1 M98 P7\nGOTO 1\nO7\nG0 X1\nM99\n",                            //
+           "N1 G68 X0 Y0 R90\nG0 X1\nG69\nGOTO 1\n",                         // makes frames
+       })
+    EXPECT_THAT(summary_of(program), HasSubstr(from)) << program;
+  EXPECT_THAT(summary_of("G0 X1\nM98 P7\nM30\nO7\nN1 G0 X2\nGOTO 1\n"),
+              HasSubstr("part.nc:2: the program repeats for ever from line 2;"))
+      << "the line of the call";
+}
+
+// Four modal calls may be active: the fifth pass is the alarm 1402.
+TEST(Summary, AProgramWhoseModalCallsNestInEachPassHasTheirAlarm) {
+  const auto summary = summary_of("N1 G66 P7\nGOTO 1\nO7\nM99\n");
+  EXPECT_THAT(summary, HasSubstr(": 1402: "));
+  EXPECT_EQ(summary.find("for ever"), std::string::npos) << summary;
+}
+
+TEST(Summary, ALoopThatEndsRunsToItsEnd) {
+  for (const char* program : {
+           "#1=0\nWHILE [#1 LT 100] DO1\n#1=#1+1\nG4 P10\nEND1\nM30\n",
+           "#500=0\nN1 #500=#500+1\nG4 P10\nIF [#500 LT 100] GOTO 1\nM30\n",
+           "M98 P7 L100\nM30\nO7\nG4 P10\nM99\n",
+           "G91\nN1 G0 X1\nG4 P10\nIF [#5041 LT 100] GOTO 1\nM30\n",  // by where the axis is
+           "G65 P7 A100\nM30\nO7\nN1 #1=#1-1\nG4 P10\nIF [#1 GT 0] GOTO 1\nM99\n",
+       }) {
+    const auto summary = summary_of(program);
+    EXPECT_THAT(summary, HasSubstr("1.00 s dwell")) << program;
+    EXPECT_EQ(summary.find("for ever"), std::string::npos) << program;
+  }
+}
+
 TEST(Summary, ArcsReachBeyondTheirEnds) {
   // From (5,0) three quarters anticlockwise about 0 to (0,-5): through (0,5) and (-5,0).
   const std::string text = summary_of("G0 X5\nG3 X0 Y-5 I-5 F10\n");
@@ -183,6 +222,20 @@ TEST(ToolRows, ReadsRowsNamesAndComments) {
   EXPECT_EQ(rows.at(12).length, -7);
   EXPECT_EQ(rows.at(12).radius, 0);
   EXPECT_TRUE(read_tool_rows("", "tools.csv").empty());
+  const std::string mark = "\xef\xbb\xbf";  // of a spreadsheet's file
+  EXPECT_EQ(read_tool_rows(mark + "1,50,3\n", "tools.csv").at(1).length, 50);
+}
+
+TEST(ToolRows, AFirstLineWithNumbersIsNoLineOfNames) {
+  EXPECT_EQ(read_tool_rows("1,50,3\n2,60,3\n", "tools.csv").size(), 2u);
+  for (const char* first : {"T1,50,3", "1;50;3", "T1;50;3", "end mill,50,3"}) {
+    try {
+      read_tool_rows(first + std::string("\n2,60,3\n"), "tools.csv");
+      ADD_FAILURE() << first;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("tools.csv:1: tool number must be a whole number")) << first;
+    }
+  }
 }
 
 TEST(ToolRows, WrongRowIsRefusedWithItsLine) {

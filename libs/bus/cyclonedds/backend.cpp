@@ -8,21 +8,27 @@
 #include <dds/ddsi/ddsi_sertype.h>
 #include <dds/ddsi/q_radmin.h>
 #include <dds/ddsrt/log.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <future>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 #include <tuple>
 
 #include "bus/endpoint.hpp"
 #include "bus/endpoint_log.hpp"
 #include "bus/security.hpp"
 #include "loopback_bind.hpp"
+#include "origin.hpp"
 
 #ifndef TRUNNION_CYCLONE_PLUGINS
 #define TRUNNION_CYCLONE_PLUGINS ""
@@ -313,7 +319,8 @@ std::string configuration(const NetworkSettings& network) {
          "MaxAutoParticipantIndex><Peers>";
   std::istringstream peers(network.multicast ? "" : network.peers);
   for (std::string peer; std::getline(peers, peer, ',');) xml << "<Peer address=\"" << peer << "\"/>";
-  xml << "</Peers><SPDPInterval>0.5s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery>"
+  xml << "</Peers><SPDPInterval>0.5s</SPDPInterval><LeaseDuration>" << lease_seconds(network)
+      << "s</LeaseDuration></Discovery>"
          // A writer never waits for a reader that is slow or dead: its bounded history is what it may lose.
          // A packet that a full socket buffer dropped is asked for again within milliseconds, before it is
          // overwritten. The interval between heartbeats doubles while nobody answers; its bound is what a cut
@@ -391,7 +398,8 @@ class Participants {
     dds_create_domain(network.domain, configuration(network).c_str());
     const auto participant = dds_create_participant(network.domain, participant_qos(network).get(), nullptr);
     if (participant < 0) fail("participant in domain " + std::to_string(network.domain), participant);
-    [[maybe_unused]] static const int once = std::atexit([] { Participants::of_this_process().end(); });
+    [[maybe_unused]] static const int once =
+        on_exit([](int status, void*) { Participants::of_this_process().end(status); }, nullptr);
     secured_ = secured_ || !network.security.empty();
     return participant;
   }
@@ -400,12 +408,21 @@ class Participants {
     idle_.emplace(key_of(network), participant);
   }
   // The others learn at once that this process ends.
-  void end() {
+  void end(int status) {
     for (const auto& [key, participant] : idle_) dds_delete(participant);
     // The threads of a secured domain would go on encrypting while OpenSSL, loaded with the security plugins,
     // clears up: what is registered later is called earlier. A domain without security is left as it is: its
     // end waits for a packet to itself, which never comes when the network is gone.
-    if (secured_) dds_delete(DDS_CYCLONEDDS_HANDLE);
+    if (!secured_) return;
+    const auto ended = std::make_shared<std::promise<void>>();
+    std::thread([ended] {
+      dds_delete(DDS_CYCLONEDDS_HANDLE);
+      ended->set_value();
+    }).detach();
+    constexpr std::chrono::seconds longest(2);
+    if (ended->get_future().wait_for(longest) == std::future_status::ready) return;
+    std::fflush(nullptr);
+    _exit(status);
   }
   static Participants& of_this_process() {
     static auto* const all = new Participants;  // outlives every Bus, static ones too
@@ -458,6 +475,7 @@ class CycloneBackend : public Backend {
     for (const auto& [handle, writer] : discovered_) writers.push_back(writer);
     return true;
   }
+  WriterOrigin origin_of(const WriterId& writer) override { return cyclone_origin(participant_, writer); }
 
  private:
   // The handle of a publication is the same in this topic and with the samples it has written.

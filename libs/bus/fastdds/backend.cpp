@@ -213,7 +213,7 @@ class FastBackend : public Backend {
     // An (invalid) unicast locator in the list keeps Fast DDS from adding the multicast one.
     if (!network.multicast)
       builtin.metatrafficUnicastLocatorList.push_back(eprosima::fastrtps::rtps::Locator_t());
-    builtin.discovery_config.leaseDuration = duration(3);
+    builtin.discovery_config.leaseDuration = duration(lease_seconds(network));
     builtin.discovery_config.leaseDuration_announcementperiod = duration(0.5);
     qos.user_data().setValue({network.identity.begin(), network.identity.end()});
     secure(qos, network);
@@ -238,6 +238,8 @@ class FastBackend : public Backend {
     return std::make_unique<Reader>(subscriber_, topic(description), qos, description.keyed, signal);
   }
   bool discover(std::vector<DiscoveredWriter>& writers) override { return discovery_.take_changes(writers); }
+  WriterOrigin origin_of(const WriterId& writer) override { return discovery_.origin_of(writer); }
+  void keep_up() override { discovery_.keep_up(); }
 
  private:
   DdsTopic* topic(const TopicDescription& description) {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -96,6 +97,30 @@ TEST_P(BusOverVendors, AWriterHearsThatAReaderHasLeft) {
   ASSERT_TRUE(eventually([&] { return writer->matched() == 1; }));
   reader.reset();
   EXPECT_TRUE(eventually([&] { return writer->matched() == 0; }));
+}
+
+TEST_P(BusOverVendors, ARefusedMessageNamesTheProcessThatHasWrittenIt) {
+  const auto [from, to, domain] = GetParam();
+  NetworkSettings network{domain + 20};
+  Bus b(to, network);
+  network.identity = "stranger";
+  Bus a(from, network);
+  auto writer = a.writer(topics::gantry_frame);
+  auto reader = b.reader(topics::gantry_frame);
+  idl::stream::AxisFrame frame, taken;
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), 0.0}) {
+    frame.setpoints = {value};
+    writer.write(frame);
+  }
+  ASSERT_TRUE(eventually([&] { return reader.take(taken); }));
+  const auto& refusals = b.refusals().at(topics::gantry_frame.name);
+  EXPECT_EQ(refusals.count, 1u);
+  EXPECT_EQ(refusals.writer.find("process " + std::to_string(getpid())), 0u) << refusals.writer;
+  EXPECT_NE(refusals.writer.find(" on host "), std::string::npos) << refusals.writer;
+  EXPECT_NE(refusals.writer.find("which says it is stranger"), std::string::npos) << refusals.writer;
+  b.refusals_told();
+  EXPECT_EQ(refusals.writer, "");
+  EXPECT_EQ(refusals.count, 1u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, BusOverVendors,

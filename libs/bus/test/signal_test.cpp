@@ -2,6 +2,7 @@
 // What the vendors' threads call: nothing is locked in a listener.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <pthread.h>
 
 #include <chrono>
@@ -100,6 +101,52 @@ TEST(Discovery, HearingOfAWriterTakesNoLockAndTheThreadThatAsksKnowsTheWritersTh
   EXPECT_FALSE(discovery.take_changes(writers)) << "nothing has changed";
   EXPECT_EQ(writers.size(), 2u);
   hear(1, "one", WriterDiscoveryInfo::REMOVED_WRITER);  // is still on the list when the object ends
+}
+
+void hear_process(Discovery& discovery, std::uint8_t number, bool there = true) {
+  using eprosima::fastrtps::rtps::ParticipantDiscoveryInfo;
+  eprosima::fastrtps::rtps::ParticipantProxyData data(
+      eprosima::fastrtps::rtps::RTPSParticipantAllocationAttributes{});
+  data.m_guid.guidPrefix.value[11] = number;
+  data.m_userData.setValue({'a', 'n', 'n'});
+  ParticipantDiscoveryInfo found(data);
+  found.status = there ? ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT
+                       : ParticipantDiscoveryInfo::DROPPED_PARTICIPANT;
+  const long before = locks_of_this_thread;
+  discovery.on_participant_discovery(nullptr, std::move(found));
+  EXPECT_EQ(locks_of_this_thread, before);
+}
+
+TEST(Discovery, AWriterIsOfTheProcessThatIsThereAndAProcessIsNoNewsOfWriters) {
+  Discovery discovery;
+  hear_process(discovery, 7);
+  hear_process(discovery, 8);
+  hear_process(discovery, 8, false);
+  WriterId writer{};
+  writer[11] = 7, writer[15] = 3;
+  EXPECT_EQ(discovery.origin_of(writer).identity, "ann");
+  writer[11] = 8;
+  EXPECT_EQ(discovery.origin_of(writer).identity, "") << "it has left";
+  EXPECT_EQ(discovery.origin_of(writer).participant, "000000000000000000000008");
+  std::vector<DiscoveredWriter> writers;
+  EXPECT_FALSE(discovery.take_changes(writers));
+}
+
+// Command-line tools come and go for as long as a machine is on. A message is more than 300 bytes, so that
+// 20000 of them would be more than 6 MB.
+TEST(Discovery, WhatComesAndGoesIsNotKeptByAServiceThatNeverAsks) {
+  Discovery discovery;
+  hear_process(discovery, 7);
+  discovery.keep_up();
+  const auto before = mallinfo2().uordblks;
+  for (int n = 0; n < 20000; ++n) {
+    hear_process(discovery, 8, n % 2 == 0);
+    if (n % 100 == 99) discovery.keep_up();
+  }
+  EXPECT_LT(mallinfo2().uordblks, before + 1'000'000);
+  WriterId writer{};
+  writer[11] = 7;
+  EXPECT_EQ(discovery.origin_of(writer).identity, "ann");
 }
 
 TEST(Discovery, NothingOfSeveralThreadsIsLost) {

@@ -364,6 +364,11 @@ TEST(KinematicsMeasurement, TouchesReadFromTheirTextGiveTheSameResult) {
   EXPECT_EQ(again[3].positions.size(), 10u) << "2 x (4 + 1)";
   const auto a = evaluate(in, machine.measured, touched), b = evaluate(in, machine.measured, again);
   EXPECT_LT((a.after.table_2->offset - b.after.table_2->offset).norm(), 2e-6) << "the text has 1e-6 mm";
+  // A pose by other turns of its axes is the same pose.
+  auto turned = again;
+  for (auto& pose : turned) pose.angles[2] -= 360;
+  EXPECT_LT((evaluate(in, machine.measured, turned).after.table_2->offset - b.after.table_2->offset).norm(),
+            2e-6);
   auto less = again;
   less.erase(less.begin() + 4);
   EXPECT_THAT(fault([&] { evaluate(in, machine.measured, less); }),
@@ -372,6 +377,16 @@ TEST(KinematicsMeasurement, TouchesReadFromTheirTextGiveTheSameResult) {
   less.erase(less.begin());
   EXPECT_THAT(fault([&] { evaluate(in, machine.measured, less); }),
               testing::HasSubstr("begins at the initial pose A0 C0"));
+}
+
+TEST(KinematicsMeasurement, AWholeTurnHasAPoseAtBothItsEnds) {
+  const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
+  auto in = inputs_of(machine);
+  for (auto& range : in.axes)
+    if (range.angle == 2) range.start = -180, range.end = 180, range.points = 5;
+  const auto result = machine.measure(in, {}, sphere);
+  const auto& c = result.axes[in.axes[0].angle == 2 ? 0 : 1];
+  EXPECT_NE(c.rows.front(), c.rows.back());
 }
 
 TEST(ChainChange, OnlyChangedComponentsBecomeParameters) {

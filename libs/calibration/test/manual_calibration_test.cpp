@@ -184,6 +184,22 @@ TEST(ManualReadings, DisplacementsAreNineLines) {
   EXPECT_EQ(fault("0 q 0\n"), "d.txt:1:3: error: 'q' is not a displacement within -100 .. 100 mm");
 }
 
+// Swung about X, a surface across X stays where it is; every other one moves.
+TEST(ManualGuide, ARotaryAxisIsCheckedOnASurfaceAcrossIt) {
+  const std::map<char, std::string> across{{'A', "YZ"}, {'B', "XZ"}, {'C', "XY"}};
+  for (const auto kind :
+       {ManualKind::ac_table, ManualKind::bc_head, ManualKind::ac_head, ManualKind::hybrid}) {
+    for (const auto language : {GuideLanguage::english, GuideLanguage::german, GuideLanguage::chinese}) {
+      for (const auto& check : guide_of(kind, language).checks) {
+        for (const char* plane : {"XY", "XZ", "YZ"}) {
+          const bool other = check.find(plane) != std::string::npos && across.at(check.front()) != plane;
+          EXPECT_FALSE(other) << check;
+        }
+      }
+    }
+  }
+}
+
 TEST(ManualGuide, HasStepsWithReadingsForEveryKind) {
   for (const auto kind :
        {ManualKind::ac_table, ManualKind::bc_head, ManualKind::ac_head, ManualKind::hybrid}) {

@@ -24,6 +24,7 @@ std::string fault(const std::string& text) {
 TEST(MeasurementFile, TakesEveryInputOfTheManual) {
   const auto in = parse_inputs(R"(
 plane: G17
+transformation: TOOL_CARR_KIN
 mode: correct
 calibrate_probe: true
 positioning: paraxial
@@ -73,6 +74,8 @@ TEST(MeasurementFile, KeepsTheLimitsOfTheManual) {
            {"settings: {least_triangle_angle_deg: 61}", "m.yaml:1:38: error: 61 is not within 2 .. 60"},
            {"settings: {least_swept_angle_deg: 9}", "m.yaml:1:35: error: 9 is not within 10 .. 180"},
            {"settings: {touches: 9}", "m.yaml:1:21: error: '9' is none of 10, 8"},
+           {"transformation: TRAORI",
+            "m.yaml:1:1: error: transformation TRAORI is not known: the channel has TOOL_CARR_KIN"},
            {"plane: G18", "m.yaml:1:1: error: plane G18: the spindle is not perpendicular to it"},
            {"reference: adapt",
             "m.yaml:1:1: error: reference adapt: only a machine whose rotary axes are all in the head has "

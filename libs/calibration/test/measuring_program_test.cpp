@@ -69,6 +69,53 @@ INSTANTIATE_TEST_SUITE_P(Ways, MeasuringProgram,
                                          ProgramCase{Positioning::circular, 8, {0, -1, -1}},
                                          ProgramCase{Positioning::paraxial, 8, {1, 0, -1}}));
 
+// The sphere may be 4 mm beside its place: nothing but a touch comes nearer than 5 mm, and a touch ends 2 mm
+// behind the expected surface.
+TEST(MeasuringProgramText, KeepsOutOfTheConfidenceRange) {
+  const TrueMachine machine(geometry::ac_table(), geometry::ac_table());
+  auto in = default_inputs(machine.measured);
+  in.sphere = Vec3(-120, -130, -420);
+  in.probe_length = 150;
+  in.confidence_range = 4;
+  const auto plan = std::get<MeasurementPlan>(plan_measurement(in, machine.measured));
+  const auto& pose = plan.poses.front();
+  const Vec3 centre =
+      geometry::make(machine.measured.model).machine_from_tip(in.sphere, pose.angles, in.probe_length);
+  const auto above = approach_position(in, pose, centre);
+  const auto text = measuring_program(in, machine.measured, pose, centre, {above}, {7});
+  EXPECT_THAT(text, testing::HasSubstr(" D7.000000 "));
+  const double radius = (in.sphere_diameter + in.ball_diameter) / 2;
+  const auto moves = moves_of(text);
+  ASSERT_GT(moves.size(), pose.directions.size());
+  for (const auto& ball : moves) EXPECT_GE((ball - centre).norm(), radius + 5 - 1e-5);
+}
+
+// Each part in one minute divided by its F (G93).
+TEST(MeasuringProgramText, TurnsWithTheFeedOfTheRotaryAxesAlsoWhereItMoves) {
+  const TrueMachine machine(geometry::ac_table(), geometry::ac_table());
+  auto in = default_inputs(machine.measured);
+  in.rotary_feed = 360, in.positioning_feed = 2000;
+  // 100 mm with 90 degrees, 400 mm with 9 degrees, 30 degrees alone, 200 mm alone, and a last digit, whose
+  // time would be too short for a word.
+  const Way way{{0, 0, -50, 0, 0, 0},      {100, 0, -50, 0, 0, 90},    {100, 400, -50, 9, 0, 90},
+                {100, 400, -50, 9, 0, 60}, {100, 400, -250, 9, 0, 60}, {100, 400, -250 + 1e-12, 9, 0, 60}};
+  std::istringstream lines(positioning_program(in, machine.measured, way, {7}));
+  std::vector<double> feeds;
+  bool inverse_time = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == "G93" || line == "G94") inverse_time = line == "G93";
+    double feed = 0;
+    if (line.rfind("G53 G1", 0) != 0) continue;
+    ASSERT_EQ(std::sscanf(line.c_str() + line.find('F'), "F%lf", &feed), 1) << line;
+    EXPECT_TRUE(inverse_time) << line;
+    feeds.push_back(feed);
+  }
+  EXPECT_FALSE(inverse_time) << "the program ends in G94";
+  ASSERT_EQ(feeds.size(), 5u);
+  const double expected[] = {360 / 90.0, 2000 / 400.0, 360 / 30.0, 2000 / 200.0, 1e6};
+  for (std::size_t i = 0; i < feeds.size(); ++i) EXPECT_NEAR(feeds[i], expected[i], 1e-6) << i;
+}
+
 TEST(MeasuringProgramText, GoesUpBeforeItTurnsAndDownLast) {
   const AxisPosition from{1, 2, -100, 10, 0, 20}, to{5, 2, -150, 0, 0, 90};
   const Way expected{
@@ -94,7 +141,7 @@ TEST(MeasuringProgramText, AnAxisThatCountsModulo360TurnsAsPlanned) {
   const auto turns = [](RotaryWay way, double from, double to) {
     TrueMachine machine(geometry::ac_table(), geometry::ac_table());
     machine.measured.outline.axes[5] = {true, -1e12, 1e12, way};
-    AxisPosition start{0, 0, 0, 0, 0, from}, end{0, 0, 0, 0, 0, to};
+    AxisPosition start{0, 0, 0, 0, 0, from}, end{1, 0, 0, 0, 0, to};
     const auto text =
         positioning_program(default_inputs(machine.measured), machine.measured, {start, end}, {7});
     return turns_of(text, way, from);

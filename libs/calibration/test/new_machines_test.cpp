@@ -29,7 +29,7 @@ TEST_P(NewMachines, TheSphereCheckIsWithin20MicrometresAfterIt) {
   parameters.values = machine::machine_parameters(
       machine::load_machine(std::string(TRUNNION_SOURCE) + "/configs/machines/" + GetParam().machine));
   const auto outline = truth::outline_of(parameters, 0);
-  const MeasuredMachine measured{GetParam().machine, machine::chain_parameters(parameters, 0), outline, ""};
+  const MeasuredMachine measured{GetParam().machine, machine::chain_parameters(parameters, 0), outline};
   auto in = default_inputs(measured);
   in.sphere = GetParam().sphere;
   in.probe_length = 60;

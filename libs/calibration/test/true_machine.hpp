@@ -32,7 +32,7 @@ struct TrueMachine {
         report(truth::make_geometry(truth::parse_truth(truth, "truth.yaml", outline).geometry, outline,
                                     "truth.yaml"),
                geometry::make(model), outline),
-        measured{"test", model, outline, ""} {}
+        measured{"test", model, outline} {}
 
   // Travel is not what these tests are about.
   static truth::MachineOutline wide(const ChainParameters& real) {

@@ -79,6 +79,8 @@ std::vector<Wrong> wrong_programs() {
       {value_range, "G4 X100000", 1, 4, ": X100000"},
       {value_range, "M98 P1 L0", 1, 8, ": L0"},
       {value_range, "G2 I1 L0 F1", 1, 7, ": L0"},
+      // 10 mm at a lead of 0.001 mm are 10,000 turns; 9999 are the most.
+      {value_range, "G2 X10 Z10 I5 J0 K.001 F1", 1, 18, ": K.001"},
       {unused_word, "G1 X1 F1 R5", 1, 10, ": R5"},
       {unused_word, "G0 X1\nG2 X3 I1 K1 F1", 2, 10, ": K1"},
       {unused_word, "H1", 1, 1, ": H1"},

@@ -104,21 +104,22 @@ TEST(Cycles, RestartFindsTheSameCommandInTheMiddleOfAHole) {
   EXPECT_EQ(part.commands.back().sequence, 23u);
 }
 
-// R below the depth would be reached in rapid, through the part.
-TEST(Cycles, AnRLevelOnTheWrongSideOfTheDepthIsRefused) {
+// R at the depth or below it would be reached in rapid, through the part.
+TEST(Cycles, AnRLevelThatIsNotInFrontOfTheDepthIsRefused) {
   for (const char* const text :
        {"G90 G0 Z5\nG81 X1 Y1 Z-5 R-10 F100\n", "G90 G0 Z5\nG91 G81 X1 Z5 R-15 F100\n",
         "G90 G0 Z5\nS100 G84 X1 Z-5 R-10 F100\n", "G90 G0 Z5\nS100 M3\nG87 X1 Z-10 R-5 Q1 F100\n",
-        "G90 G0 Z5\nG51.1 Z0\nG81 X1 Z-5 R-2 F100\n"}) {
+        "G90 G0 Z5\nG51.1 Z0\nG81 X1 Z-5 R-2 F100\n", "G90 G0 Z5\nG81 X1 Z-5 R-5 F100\n",
+        "G90 G0 Z5\nG83 X1 Z-5 R-5 Q1 F100\n", "G90 G0 Z5\nS100 M3\nG87 X1 Z-5 R-5 Q1 F100\n",
+        "G19 G0 X0\nG81 X5 R5 F100\n"}) {
     TestMachine machine = machine_for_cycles();
     const Interpretation result = run(machine, text);
     EXPECT_EQ(result.alarm.number, AlarmNumber::cycle_level_side) << text;
     EXPECT_NE(std::string(result.alarm.text.data()).find("R "), std::string::npos)
         << result.alarm.text.data();
   }
-  // Equal levels are a hole without depth, a mirrored Z axis exchanges both, an angle head may drill upwards.
-  for (const char* const text : {"G90 G0 Z5\nG81 X1 Z-5 R-5 F100\n", "G19 G0 X0\nG81 X5 R2 F100\n",
-                                 "G90 G0 Z5\nG51.1 Z0\nG81 X1 Z5 R2 F100\n"}) {
+  // A mirrored Z axis exchanges both, an angle head may drill upwards.
+  for (const char* const text : {"G19 G0 X0\nG81 X5 R2 F100\n", "G90 G0 Z5\nG51.1 Z0\nG81 X1 Z5 R2 F100\n"}) {
     TestMachine machine = machine_for_cycles();
     EXPECT_EQ(run(machine, text).last, Step::end) << text;
   }

@@ -182,6 +182,9 @@ TEST(SystemVariables, SkipPositionIsWhereTheMachineStopped) {
   ASSERT_EQ(interpreter.next(command), Step::command);
   EXPECT_EQ(command.target[X], 131.5);
   EXPECT_EQ(interpreter.variables().kept[0].number, 30.5);
+  // The next program still finds it, in its own units.
+  EXPECT_NEAR(after("G20\n#501=#5061\nM30", interpreter.variables(), machine).kept[1].number, 30.5 / 25.4,
+              1e-12);
 }
 
 TEST(SystemVariables, EveryRangeOfTheTableIsApartFromTheOthers) {

@@ -82,6 +82,25 @@ TEST(AxisFaults, MoreSpindleLettersThanSpindles) {
                           "machine has no further one: it has 1"));
 }
 
+TEST(AxisFaults, AMotorMayTurnTheOtherWayButMustMoveItsAxis) {
+  EXPECT_THAT(faults_of("gantry-cb-head", {{102004, -12000, ""}}), IsEmpty());
+  EXPECT_THAT(faults_of("ac-table", {{100004, 0, ""}}),
+              ElementsAre("parameter 100004 (travel_per_revolution): axis 0 (X) travels 0 um for one "
+                          "revolution of its motor: at least 1, or -1 when the motor turns the other way"));
+}
+
+// The units of PB64 are 1: synchronization is on.
+TEST(AxisFaults, ADriveOfAGantryIsOnTheSideThatItsAxisIs) {
+  EXPECT_THAT(faults_of("gantry-cb-head", {{101942, 1, ""}, {102942, 11, ""}}), IsEmpty());
+  EXPECT_THAT(faults_of("gantry-cb-head", {{102942, 100, ""}}), IsEmpty()) << "off";
+  EXPECT_THAT(faults_of("gantry-cb-head", {{101942, 1, ""}, {102942, 101, ""}}),
+              ElementsAre("parameter 102942 (drive_synchronization): PB64 of axis 2 (Y2), a slave of a "
+                          "gantry, is 101, and its tens make the drive a master: enter 111"));
+  EXPECT_THAT(faults_of("gantry-cb-head", {{101942, 11, ""}, {102942, 11, ""}}),
+              ElementsAre("parameter 101942 (drive_synchronization): PB64 of axis 1 (Y), a master of a "
+                          "gantry, is 11, and its tens make the drive a slave: enter 1"));
+}
+
 // gantry-cb-head: axis 2 is the slave of axis 1, which is Y.
 TEST(AxisFaults, ASlaveThatIsAnAxisOfAChannel) {
   EXPECT_THAT(faults_of("gantry-cb-head", {{40007, 2, ""}}),

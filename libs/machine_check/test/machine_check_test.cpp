@@ -159,6 +159,18 @@ TEST(MachineCheck, AMachineWithoutItsFiles) {
               ElementsAre("parameters.yaml: error: cannot be opened", "plc: error: is no directory"));
 }
 
+// As `cp -r configs/machines/four-axis mine` leaves it.
+TEST(MachineCheck, ALinkThatLeadsNowhereIsNamedOnce) {
+  Copy copy("four-axis");
+  copy.remove("plc").remove("parameters.yaml");
+  for (const auto* name : {"plc", "parameters.yaml"})
+    fs::create_symlink(fs::path("../ac-table") / name, fs::path(copy.path()) / name);
+  EXPECT_THAT(copy.findings(),
+              ElementsAre(testing::StartsWith("parameters.yaml: error: is a link to "),
+                          "plc: error: is a link to '../ac-table/plc', which is not there: 'trunnion new "
+                          "machine NAME --from MACHINE' copies a machine whole"));
+}
+
 TEST(MachineCheck, TheBodiesAndTheTruth) {
   Copy copy("ac-table");
   copy.append("bodies.yaml", "\nnothing: 1\n").write("truth.yaml", "nothing: 1\n");

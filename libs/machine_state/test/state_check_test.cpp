@@ -67,6 +67,16 @@ TEST_F(StateCheck, AnEditedProgramIsTakenWhenTheOperatorAcceptsIt) {
   EXPECT_EQ(problems(state()), "");
 }
 
+TEST_F(StateCheck, ADirectoryInThePlaceOfAFileIsNamed) {
+  for (const std::string name : {"journal.jsonl", "tools.yaml"}) {
+    std::filesystem::remove(state() + "/" + name);
+    std::filesystem::create_directories(state() + "/" + name);
+  }
+  EXPECT_TRUE(std::filesystem::exists(state() + "/tools.yaml.previous")) << "which is a file";
+  EXPECT_EQ(problems(state()),
+            "journal.jsonl: it is no file: move it away\ntools.yaml: it is no file: move it away\n");
+}
+
 TEST_F(StateCheck, NothingElseCanBeAccepted) {
   for (const auto* name : {"encoders.bin", "../state/tools.yaml", "none.yaml", "cluster.boot"})
     EXPECT_THROW(accept(state(), name), std::runtime_error) << name;

@@ -43,6 +43,15 @@ class JournalFullStorage : public MemoryStorage {
   }
 };
 
+/// The journal is a directory.
+class JournalUnreadableStorage : public JournalFullStorage {
+ public:
+  std::optional<std::string> read(const std::string& name) override {
+    if (name == journal_file) throw StorageError("journal.jsonl: is a directory");
+    return JournalFullStorage::read(name);
+  }
+};
+
 /// Files cannot be replaced while `full`.
 class DiskFullStorage : public MemoryStorage {
  public:
@@ -145,6 +154,15 @@ TEST(ParameterStore, StartsOnAFullDiskWhenNoValueChangesAndWritesTheStartWithThe
   storage.full = false;
   EXPECT_TRUE(store.apply(set({{name, 0, "Y"}}), time_text).accepted);
   EXPECT_THAT(storage.files.at(active_file), HasSubstr("boot: second"));
+}
+
+TEST(ParameterStore, StartsWithoutAJournalAndRefusesChangesUntilThereIsOne) {
+  JournalUnreadableStorage storage;
+  ParameterStore store(storage, defaults(), "first");
+  EXPECT_THAT(store.problem(), HasSubstr("journal.jsonl: is a directory"));
+  EXPECT_EQ(store.set().revision, 1u);
+  EXPECT_FALSE(store.apply(set({{name, 0, "Y"}}), time_text).accepted);
+  EXPECT_TRUE(store.set().pending.empty());
 }
 
 TEST(ParameterStore, DoesNotStartOnAFullDiskWhenAValueBecomesActiveOrNothingIsStored) {

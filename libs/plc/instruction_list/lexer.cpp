@@ -27,16 +27,17 @@ std::vector<Token> tokenize(std::string_view source, const std::string& file) {
     } else if (starts("//")) {
       while (i < source.size() && source[i] != '\n') ++i;
     } else if (starts("(*")) {
-      i += 2;
-      while (i < source.size() && !starts("*)")) {
+      int depth = 0;  // comments nest
+      do {
+        const bool begins = starts("(*"), ends = starts("*)");
         if (source[i] == '\n') {
           ++line;
           line_start = i + 1;
         }
-        ++i;
-      }
-      if (i >= source.size()) throw CompileError(file, here.line, here.column, "the comment is not closed");
-      i += 2;
+        depth += begins ? 1 : ends ? -1 : 0;
+        i += begins || ends ? 2 : 1;
+      } while (depth > 0 && i < source.size());
+      if (depth > 0) throw CompileError(file, here.line, here.column, "the comment is not closed");
     } else {
       std::size_t end = i + 1;
       Token token = here;

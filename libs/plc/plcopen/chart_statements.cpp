@@ -121,7 +121,7 @@ class ChartWriter {
     if (const auto when = active(action, "P1"); !when.empty())
       pulses.push_back(edge("_entry", "R_TRIG", when));
     if (const auto when = active(action, "P0"); !when.empty())
-      pulses.push_back(edge("_exit", "F_TRIG", when));
+      pulses.push_back(edge("_exit", "FALLING_EDGE", when));
 
     const auto is_active = declare(action.name + "_active", "BOOL", node);
     const auto any = [](const std::vector<std::string>& list, std::string text) {

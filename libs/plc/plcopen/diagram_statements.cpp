@@ -91,7 +91,8 @@ class StatementWriter {
     auto name = (kind == Edge::rising ? "rising_edge_" : "falling_edge_") + std::to_string(++edges_);
     while (names_.contains(upper_case(name))) name += "_";
     append(declarations_,
-           words("VAR " + name + " : " + (kind == Edge::rising ? "R_TRIG" : "F_TRIG") + "; END_VAR", node));
+           words("VAR " + name + " : " + (kind == Edge::rising ? "R_TRIG" : "FALLING_EDGE") + "; END_VAR",
+                 node));
     write(name + "(CLK :=", node);
     write(std::move(signal));
     write(");", node);

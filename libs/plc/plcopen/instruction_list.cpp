@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "plc/library/functions.hpp"
 #include "plc/syntax/parser.hpp"
 
 namespace trunnion::st::plcopen {
@@ -87,30 +88,60 @@ class List {
       combine(op == "LDN" ? "NOT (" : "(", std::move(line), ")", first.at);
       return;
     }
+    const bool stores = op == "ST" || op == "STN" || op == "S" || op == "R";
+    if (!stores && is_call(op, first, line)) return function(first, std::move(line));
     if (!has_result(first.at)) return;
-    if (op == "ST" || op == "STN" || op == "S" || op == "R") return store(op, line, first.at);
+    if (stores) return store(op, line, first.at);
     bool inverts = false;
     if (!operators.contains(op) && op.ends_with("N") && operators.contains(op.substr(0, op.size() - 1)))
       inverts = true, op.pop_back();
     if (!operators.contains(op)) return fail(first.at, "unknown instruction '" + first.text + "'");
-    if (!line.empty() && line[0].text == "(" && line[0].kind == TokenKind::symbol) {
-      // The operator waits for the result of the parenthesis.
-      open_.push_back({std::move(current_), op, inverts, first.at});
-      current_.clear();
-      line.erase(line.begin());
-      if (!line.empty() && line.back().text == ")" && balanced(line) < 0) {
-        line.pop_back();
-        if (!expression(line, first.at)) return;
-        current_ = std::move(line);
-        return close(first.at);
-      }
-      if (line.empty()) return;
-      if (!expression(line, first.at)) return;
-      current_ = std::move(line);
-      return;
-    }
+    if (!line.empty() && line[0].text == "(" && line[0].kind == TokenKind::symbol)
+      return open(op, inverts, std::move(line), first.at);
     if (!expression(line, first.at)) return;
     apply(op, inverts, std::move(line), first.at);
+  }
+
+  /// The operator waits for the result of the parenthesis, which may change what was loaded before.
+  void open(const std::string& op, bool inverts, Tokens line, Position at) {
+    keep(at);
+    open_.push_back({std::move(current_), op, inverts, at});
+    current_.clear();
+    line.erase(line.begin());
+    const bool closes = !line.empty() && line.back().text == ")" && balanced(line) < 0;
+    if (closes) line.pop_back();
+    if (line.empty() && !closes) return;
+    if (!expression(line, at)) return;
+    current_ = std::move(line);
+    if (closes) close(at);
+  }
+
+  /// A function is its own operator: LIMIT(MN := 0, IN := x, MX := 5), or LIMIT x, 5 behind LD 0.
+  static bool is_call(const std::string& op, const Token& first, const Tokens& line) {
+    if (first.kind != TokenKind::identifier || op == "NOT" || operators.contains(op)) return false;
+    if (op.ends_with("N") && operators.contains(op.substr(0, op.size() - 1))) return false;
+    const bool formal = line.size() > 1 && line[0].text == "(" && line[0].kind == TokenKind::symbol;
+    return formal || is_standard_function(op);
+  }
+
+  /// Without parentheses the current result is the first argument.
+  void function(const Token& name, Tokens arguments) {
+    const bool formal = !arguments.empty() && arguments[0].text == "(";
+    Tokens call = {name};
+    if (formal) {
+      append(call, std::move(arguments));
+    } else {
+      if (!has_result(name.at)) return;
+      keep(name.at);
+      append(call, words("(", name.at));
+      append(call, current_);
+      if (!arguments.empty()) append(call, words(",", name.at));
+      append(call, std::move(arguments));
+      append(call, words(")", name.at));
+    }
+    if (!expression(call, name.at)) return;
+    current_ = std::move(call);
+    keep(name.at);
   }
 
   static int balanced(const Tokens& line) {

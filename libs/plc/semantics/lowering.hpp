@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "plc/semantics/emitter.hpp"
 #include "plc/semantics/unit.hpp"
@@ -18,7 +19,8 @@ class Lowering {
       : unit_(unit), pou_(pou), emit_(first_temporary) {}
 
   void body(const Statements& statements);
-  /// `expected`: the type that an enumerated value without its type's name may have.
+  /// `expected`: the type of what takes the value: an enumerated value without its type's name and a choice
+  /// between literals have it.
   Value expression(const Expression& e, const Type* expected = nullptr);
   /// The value as one of the type, or an error at `at`. `what` begins the message: "the value".
   Value converted(Value value, const Type& to, Position at);
@@ -37,6 +39,7 @@ class Lowering {
   Value part(const Expression& e);
   Value index(const Expression& e);
   Value unary(const Expression& e, const Type* expected);
+  Value inverted(const Value& value, Position at);
   Value binary(const Expression& e, const Type* expected);
   Value logic(const Expression& e, const Type* expected);
   Value arithmetic(const std::string& op, Value left, Value right, Position at);
@@ -45,13 +48,17 @@ class Lowering {
   Value folded(const std::string& op, const Value& left, const Value& right, const Type& type, Position at);
   Value folded_comparison(const std::string& op, const Value& left, const Value& right) const;
   Value string_comparison(const std::string& op, const Value& left, const Value& right);
-  Value power(Value left, Value right, Position at);
+  Value power(Value left, Value right, const Type* expected, Position at);
   Value operation(Op op, const Type* type, const Value& left, const Value& right, bool narrow);
   bool settle(Value& left, Value& right, const std::string& op, Position at);
   Value failed(Position at, const std::string& text);
   Value error() const { return {elementary(Kind::error), false, 0, false, 0, "", {}, nullptr}; }
   Value temporary(const Type* type);
   Value kept(Value value);
+  Value own_copy(const Value& value, const Type* expected, Position at);
+  Value of_type(const Value& value, const Type& type, Position at);
+  void initial_at(std::size_t jump, const Value& value);
+  void fill(std::int32_t first, const std::vector<std::uint64_t>& cells);
   Value variable_value(Variable& variable);
 
   // places
@@ -75,11 +82,16 @@ class Lowering {
 
   // calls
   Value call(const Expression& e, const Type* expected);
+  Value enabled_call(const Expression& e, const Type* expected);
+  Value plain_call(const Expression& e, const Type* expected);
+  const Type* instance_type(const Expression& e) const;
+  bool has_own_control(const Expression& callee) const;
   Value call_function(Pou& function, const Expression& e);
   void call_block(const Value& instance, const Expression& e);
   void call_program(Pou& program, const Expression& e);
   bool bind(const Pou& pou, const Expression& e, bool is_block, std::vector<const Argument*>& bound);
   std::int32_t reference(const Argument& argument, const Variable& parameter);
+  void give_output(const Argument& argument, const Value& output);
   std::optional<Value> standard_function(const Expression& e, const Type* expected);
   std::optional<Value> ladder_function(const Expression& e);
   Value move_converted(const Expression& to, const Value& value);
@@ -89,10 +101,15 @@ class Lowering {
   Value converted_digits(const Value& value, const Type& to, bool from_digits, Position at);
   Value byte_order(bool reverse, const Value& value, const Expression& e);
   Value validity(bool digits, const Value& value, const Expression& e);
-  Value selection(const std::string& name, const Expression& e, std::vector<Value> values);
+  Value selection(const std::string& name, const Expression& e, std::vector<Value> values,
+                  const Type* expected);
+  const Type* selected_type(const std::string& name, std::span<const Value> values, Position at);
+  void store_chosen(const Value& target, const Value& selector, std::span<const Value> values, Position at);
+  Value extreme_literal(const std::string& name, std::vector<Value> values, Position at);
   Value shift(const std::string& name, const std::vector<Value>& values, const Expression& e);
   Value string_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
-  Value math_function(MathFunction function, const std::vector<Value>& values, const Expression& e);
+  Value math_function(MathFunction function, const std::vector<Value>& values, const Expression& e,
+                      const Type* expected);
   Value test_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
   Value string_result(StringFunction function, std::span<const std::int32_t> arguments, std::uint32_t length,
                       bool wide = false);

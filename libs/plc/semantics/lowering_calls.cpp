@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls of functions, function blocks and programs.
+#include <algorithm>
+#include <optional>
+#include <vector>
+
 #include "plc/library/functions.hpp"
 #include "plc/semantics/lowering.hpp"
 
@@ -18,9 +22,88 @@ const char* section_name(VariableSection section) {
                                               : "VAR_IN_OUT";
 }
 
+bool declares_control(const PouDeclaration& pou) {
+  return std::any_of(pou.blocks.begin(), pou.blocks.end(), [](const VariableBlock& block) {
+    return (block.section == VariableSection::input || block.section == VariableSection::output) &&
+           std::any_of(block.variables.begin(), block.variables.end(),
+                       [](const VariableDeclaration& v) { return v.name == "EN" || v.name == "ENO"; });
+  });
+}
+
 }  // namespace
 
+/// Of an instance before its value is known; nullptr when there is none.
+const Type* Lowering::instance_type(const Expression& e) const {
+  if (e.kind == Expression::Kind::name) {
+    const Variable* variable = unit_.find_global(e.name);
+    if (pou_ != nullptr)
+      if (const auto found = pou_->names.find(e.name); found != pou_->names.end()) variable = found->second;
+    if (variable == nullptr && in_test()) variable = unit_.find_instance(e.name);
+    if (variable != nullptr) return variable->type;
+    // A test names the variables of a program by the program.
+    const auto* pou = in_test() ? unit_.find_pou(e.name) : nullptr;
+    const bool is_program = pou != nullptr && pou->declaration->kind == PouKind::program;
+    return is_program && unit_.translated(e.name, e.at) != nullptr ? &pou->type : nullptr;
+  }
+  if (e.kind != Expression::Kind::index && e.kind != Expression::Kind::member) return nullptr;
+  const auto* owner = instance_type(*e.parts[0]);
+  if (owner == nullptr) return nullptr;
+  if (e.kind == Expression::Kind::index) return owner->kind == Kind::array ? owner->element : nullptr;
+  if (owner->kind == Kind::structure) {
+    const auto* field = owner->field(e.name);
+    return field == nullptr ? nullptr : field->type;
+  }
+  if (owner->kind != Kind::block) return nullptr;
+  const auto& names = owner->block->pou->names;
+  const auto found = names.find(e.name);
+  return found == names.end() ? nullptr : found->second->type;
+}
+
+/// EN and ENO of units that declare them are parameters like others.
+bool Lowering::has_own_control(const Expression& callee) const {
+  if (const auto* type = instance_type(callee); type != nullptr && type->kind == Kind::block)
+    return declares_control(*type->block->pou->declaration);
+  if (callee.kind != Expression::Kind::name) return false;
+  const auto* pou = unit_.find_pou(callee.name);
+  return pou != nullptr && declares_control(*pou->declaration);
+}
+
 Value Lowering::call(const Expression& e, const Type* expected) {
+  return e.control.empty() || has_own_control(*e.parts[0]) ? plain_call(e, expected)
+                                                           : enabled_call(e, expected);
+}
+
+/// Without EN nothing of the call is executed, not its arguments either; the result is the initial value of
+/// its type. ENO is EN.
+Value Lowering::enabled_call(const Expression& e, const Type* expected) {
+  const Argument *enable = nullptr, *done = nullptr;
+  for (const auto& argument : e.control) {
+    auto& given = argument.output ? done : enable;
+    if (given != nullptr)
+      return failed(argument.at, argument.output ? "ENO has two variables" : "EN has two values");
+    given = &argument;
+  }
+  const auto executed = temporary(elementary(Kind::boolean));
+  std::optional<std::size_t> skip;
+  if (enable == nullptr) {
+    emit_.constant(executed.place.offset, 1);
+  } else {
+    emit_.add(Op::move, executed.place.offset, condition(*enable->value, "EN"));
+    skip = emit_.add(Op::jump_if_not, 0, executed.place.offset);
+  }
+  auto result = plain_call(e, expected);
+  if (result.is_error()) return result;
+  if (skip && result.type->kind == Kind::none) {
+    emit_.jump_to_here(*skip);
+  } else if (skip) {
+    result = own_copy(result, expected, e.at);
+    initial_at(*skip, result);
+  }
+  if (done != nullptr) give_output(*done, executed);
+  return result;
+}
+
+Value Lowering::plain_call(const Expression& e, const Type* expected) {
   const auto& callee = *e.parts[0];
   Value none;
   none.type = elementary(Kind::none);
@@ -83,7 +166,12 @@ bool Lowering::bind(const Pou& pou, const Expression& e, bool is_block, std::vec
     good = false;
   };
   const auto& name = pou.declaration->text;
-  for (const auto& argument : e.arguments) {
+  std::vector<const Argument*> given;
+  for (const auto& argument : e.arguments) given.push_back(&argument);
+  if (declares_control(*pou.declaration))
+    for (const auto& argument : e.control) given.push_back(&argument);
+  for (const auto* one : given) {
+    const auto& argument = *one;
     std::size_t index = 0;
     if (argument.name.empty()) {
       while (next < parameters.size() && parameters[next]->section == VariableSection::output) ++next;
@@ -113,7 +201,7 @@ bool Lowering::bind(const Pou& pou, const Expression& e, bool is_block, std::vec
     const auto& p = *parameters[i];
     if (p.section == VariableSection::in_out)
       report(e.at, "VAR_IN_OUT '" + p.text + "' of '" + name + "' needs a variable in every call");
-    else if (p.section == VariableSection::input && !is_block && e.arguments.empty() &&
+    else if (p.section == VariableSection::input && !is_block && given.empty() &&
              p.initial == p.type->initial)
       report(e.at, "'" + name + "' needs a value for '" + p.text + "'");
   }
@@ -141,6 +229,16 @@ std::int32_t Lowering::reference(const Argument& argument, const Variable& param
   }
   mark_written(value);
   return address(value.place);
+}
+
+/// To the variable behind =>, inverted with NOT before the output's name.
+void Lowering::give_output(const Argument& argument, const Value& output) {
+  const auto at = argument.value->at;
+  const auto target = this->target(*argument.value);
+  if (!check_writable(target, at)) return;
+  note(*argument.value, target, writing());
+  const auto value = argument.inverted ? inverted(output, argument.at) : output;
+  store(target, converted(value, *target.type, at));
 }
 
 Value Lowering::call_function(Pou& function, const Expression& e) {
@@ -220,13 +318,10 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
     if (!is_parameter(variable, function)) continue;
     const auto* argument = bound[i++];
     if (argument == nullptr || variable.section != VariableSection::output) continue;
-    const auto target = this->target(*argument->value);
-    if (!check_writable(target, argument->value->at)) continue;
-    note(*argument->value, target, writing());
     Value output;
     output.type = variable.type;
     output.place = {Place::Base::absolute, base + variable.place.offset, 0, -1, 0, 0, false, ""};
-    store(target, converted(output, *target.type, argument->value->at));
+    give_output(*argument, output);
   }
   if (function.result == nullptr) {
     Value none;
@@ -278,15 +373,12 @@ void Lowering::call_block(const Value& instance, const Expression& e) {
     if (!is_parameter(variable, pou)) continue;
     const auto* argument = bound[i++];
     if (argument == nullptr || variable.section != VariableSection::output) continue;
-    const auto target = this->target(*argument->value);
-    if (!check_writable(target, argument->value->at)) continue;
-    note(*argument->value, target, writing());
-    store(target, converted(place_of(variable), *target.type, argument->value->at));
+    give_output(*argument, place_of(variable));
   }
 }
 
 void Lowering::call_program(Pou& program, const Expression& e) {
-  if (!e.arguments.empty())
+  if (!e.arguments.empty() || (declares_control(*program.declaration) && !e.control.empty()))
     failed(e.at, "a program is called without arguments; assign program.variable before");
   emit_.add(Op::call, static_cast<std::int32_t>(program.routine), static_cast<std::int32_t>(program.base));
 }

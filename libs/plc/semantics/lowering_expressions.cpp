@@ -92,24 +92,27 @@ Value Lowering::expression(const Expression& e, const Type* expected) {
   return error();
 }
 
+Value Lowering::inverted(const Value& value, Position at) {
+  const auto kind = value.type->kind;
+  if (kind == Kind::integer_literal) return failed(at, "NOT needs a typed literal, as WORD#16#FF");
+  if (!is_bits(kind)) return failed(at, "NOT is for BOOL and bit strings, not for " + value.type->name);
+  const auto* type = elementary(kind);
+  if (value.is_constant)
+    return constant_integer(type, static_cast<std::int64_t>(
+                                      narrowed(~static_cast<std::uint64_t>(value.integer), cell_form(kind))));
+  const auto source = cell(value);
+  auto result = temporary(type);
+  emit_.add(kind == Kind::boolean ? Op::not_ : Op::invert, result.place.offset, source);
+  if (kind != Kind::boolean && kind != Kind::lword)
+    emit_.add(Op::narrow, result.place.offset, result.place.offset, 0, cell_form(kind));
+  return result;
+}
+
 Value Lowering::unary(const Expression& e, const Type* expected) {
   auto value = expression(*e.parts[0], expected);
   if (value.is_error()) return value;
   const auto kind = value.type->kind;
-  if (e.name == "NOT") {
-    if (kind == Kind::integer_literal) return failed(e.at, "NOT needs a typed literal, as WORD#16#FF");
-    if (!is_bits(kind)) return failed(e.at, "NOT is for BOOL and bit strings, not for " + value.type->name);
-    const auto* type = elementary(kind);
-    if (value.is_constant)
-      return constant_integer(type, static_cast<std::int64_t>(narrowed(
-                                        ~static_cast<std::uint64_t>(value.integer), cell_form(kind))));
-    const auto source = cell(value);
-    auto result = temporary(type);
-    emit_.add(kind == Kind::boolean ? Op::not_ : Op::invert, result.place.offset, source);
-    if (kind != Kind::boolean && kind != Kind::lword)
-      emit_.add(Op::narrow, result.place.offset, result.place.offset, 0, cell_form(kind));
-    return result;
-  }
+  if (e.name == "NOT") return inverted(value, e.at);
   if (!is_number(kind) && !is_duration(kind))
     return failed(e.at, "'-' is for numbers and times, not for " + value.type->name);
   if (value.is_constant) {
@@ -146,14 +149,14 @@ Value Lowering::unary(const Expression& e, const Type* expected) {
 
 Value Lowering::binary(const Expression& e, const Type* expected) {
   if (e.name == "AND" || e.name == "OR" || e.name == "XOR") return logic(e, expected);
-  auto left = expression(*e.parts[0]);
+  const bool compares = e.name.find_first_of("<>=") != std::string::npos;
+  auto left = expression(*e.parts[0], compares ? nullptr : expected);
   if (calls(*e.parts[1])) left = kept(left);
-  const bool names = !left.is_error() && left.type->kind == Kind::enumeration;
-  auto right = expression(*e.parts[1], names ? left.type : nullptr);
+  auto right = expression(*e.parts[1], compares && !left.is_error() ? left.type : expected);
   if (left.is_error() || right.is_error()) return error();
   emit_.place(e.at);
-  if (e.name == "**") return power(left, right, e.at);
-  if (e.name.find_first_of("<>=") != std::string::npos) return comparison(e.name, left, right, e.at);
+  if (e.name == "**") return power(left, right, expected, e.at);
+  if (compares) return comparison(e.name, left, right, e.at);
   return arithmetic(e.name, left, right, e.at);
 }
 
@@ -165,9 +168,10 @@ Value Lowering::logic(const Expression& e, const Type* expected) {
     auto result = temporary(elementary(Kind::boolean));
     emit_.add(Op::move, result.place.offset, cell(left));
     const auto jump = emit_.add(e.name == "AND" ? Op::jump_if_not : Op::jump_if, 0, result.place.offset);
-    auto right = converted(expression(*e.parts[1]), *elementary(Kind::boolean), e.parts[1]->at);
+    const auto& boolean = *elementary(Kind::boolean);
+    const auto right = converted(expression(*e.parts[1], &boolean), boolean, e.parts[1]->at);
     if (right.is_error()) return right;
-    emit_.add(Op::move, result.place.offset, cell(right, *elementary(Kind::boolean)));
+    emit_.add(Op::move, result.place.offset, cell(right, boolean));
     emit_.jump_to_here(jump);
     return result;
   }
@@ -212,10 +216,7 @@ bool Lowering::settle(Value& left, Value& right, const std::string& op, Position
       return false;
     }
     literal = converted(literal, *type, at);
-    auto& typed_side = left.is_literal() ? left : right;
-    (void)typed_side;
-    return !literal.is_error() &&
-           (same_type(*left.type, *right.type) || common_type(*left.type, *right.type) != nullptr);
+    if (literal.is_error()) return false;
   }
   if (common_type(*left.type, *right.type) != nullptr) return true;
   std::string text =
@@ -449,12 +450,13 @@ Value Lowering::string_comparison(const std::string& op, const Value& left, cons
   return comparison(op, order, constant_integer(elementary(Kind::integer_literal), 0), {});
 }
 
-Value Lowering::power(Value left, Value right, Position at) {
+Value Lowering::power(Value left, Value right, const Type* expected, Position at) {
   if (!is_number(left.type->kind) || !is_number(right.type->kind))
     return failed(at, "'**' is for numbers, not for " +
                           (is_number(left.type->kind) ? right.type->name : left.type->name));
-  // The result has the type of the base when that is REAL, otherwise LREAL.
-  const auto* type = elementary(left.type->kind == Kind::real ? Kind::real : Kind::lreal);
+  // The result has the type of the base when that is REAL, otherwise LREAL; a literal is a REAL for a REAL.
+  const bool as_expected = left.is_literal() && expected != nullptr && expected->kind == Kind::real;
+  const auto* type = elementary(left.type->kind == Kind::real || as_expected ? Kind::real : Kind::lreal);
   if (right.type->kind == Kind::lreal) type = elementary(Kind::lreal);
   const auto numeric = [&](Value v) {
     if (widens(*v.type, *type) || v.is_literal()) return converted(v, *type, at);

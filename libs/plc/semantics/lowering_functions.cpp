@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -56,20 +57,73 @@ bool in_order(const FunctionRow& row, const Expression& e, Diagnostics& diagnost
   return true;
 }
 
+Value absolute_literal(Value value) {
+  if (value.type->kind == Kind::real_literal) {
+    value.real = std::fabs(value.real);
+    if (value.text.starts_with('-')) value.text.erase(0, 1);
+  } else if (value.integer < 0 && !value.large) {
+    value.large = value.integer == std::numeric_limits<std::int64_t>::min();
+    value.integer = static_cast<std::int64_t>(0 - static_cast<std::uint64_t>(value.integer));
+  }
+  return value;
+}
+
+/// Whether the arguments have the type of the result.
+bool keeps_type(FunctionGroup group) {
+  using enum FunctionGroup;
+  return group == math || group == absolute || group == arithmetic || group == selection || group == move ||
+         group == order_of_bytes;
+}
+
+/// The second argument of shifts and of EXPT.
+bool has_other_type(const FunctionRow& row) {
+  return row.group == FunctionGroup::shift || row.name == "EXPT";
+}
+
+/// ADD_INT is ADD with operands of this type (IEC 61131-3:2013, table 21); nullptr for other names.
+const FunctionRow* typed_function(const std::string& name, const Type*& type) {
+  using enum FunctionGroup;
+  const auto at = name.rfind('_');
+  if (at == std::string::npos) return nullptr;
+  const auto* row = find_function(name.substr(0, at));
+  type = elementary(name.substr(at + 1));
+  if (row == nullptr || type == nullptr) return nullptr;
+  const bool permitted = (keeps_type(row->group) && row->group != order_of_bytes) ||
+                         row->group == comparison || row->group == shift;
+  return permitted ? row : nullptr;
+}
+
 }  // namespace
 
+/// The value in a cell of this type, to which it converts implicitly.
+Value Lowering::of_type(const Value& value, const Type& type, Position at) {
+  const auto given = converted(value, type, at);
+  if (given.is_error() || given.is_constant || same_type(*given.type, type)) return given;
+  auto result = temporary(&type);
+  emit_.add(Op::move, result.place.offset, cell(given, type));
+  return result;
+}
+
 std::optional<Value> Lowering::standard_function(const Expression& e, const Type* expected) {
-  const auto& name = e.parts[0]->name;
-  const auto* row = find_function(name);
-  if (row == nullptr) return conversion(e, name);
+  const Type* operands = nullptr;
+  const auto* row = find_function(e.parts[0]->name);
+  if (row == nullptr) {
+    if (auto value = conversion(e, e.parts[0]->name)) return value;
+    row = typed_function(e.parts[0]->name, operands);
+    if (row == nullptr) return std::nullopt;
+  }
+  const std::string name(row->name);
   std::vector<const Expression*> ordered;
   if (!in_order(*row, e, unit_.diagnostics(), ordered)) return error();
   std::vector<Value> values;
   for (std::size_t i = 0; i < ordered.size(); ++i) {
-    const Type* hint = name == "SEL" || name == "MUX" ? (i == 0 ? nullptr : expected) : expected;
+    const bool selects = i == 0 && (name == "SEL" || name == "MUX");
+    const bool is_typed = operands != nullptr && !selects && (i == 0 || !has_other_type(*row));
+    const Type* hint = is_typed ? operands : selects || !keeps_type(row->group) ? nullptr : expected;
     if (i > 0 && !values.back().is_error() && values.back().type->kind == Kind::enumeration)
       hint = values.back().type;
     auto value = expression(*ordered[i], hint);
+    if (is_typed) value = of_type(value, *operands, ordered[i]->at);
     for (auto j = i + 1; j < ordered.size(); ++j)
       if (ordered[j]->kind == Expression::Kind::call) value = value.is_error() ? value : kept(value);
     values.push_back(value);
@@ -84,7 +138,8 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
     Value all;
     for (std::size_t i = 1; i < values.size(); ++i) {
       if (!compares) {
-        result = op == "**" ? power(result, values[i], e.at) : arithmetic(op, result, values[i], e.at);
+        result =
+            op == "**" ? power(result, values[i], expected, e.at) : arithmetic(op, result, values[i], e.at);
         if (result.is_error()) return result;
         continue;
       }
@@ -129,14 +184,14 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
           {"TAN", MathFunction::tan},   {"ASIN", MathFunction::asin},   {"ACOS", MathFunction::acos},
           {"ATAN", MathFunction::atan}, {"ATAN2", MathFunction::atan2}, {"FLOOR", MathFunction::floor},
           {"CEIL", MathFunction::ceil}};
-      return math_function(functions.at(row->name), values, e);
+      return math_function(functions.at(row->name), values, e, expected);
     }
     case FunctionGroup::absolute: {
       const auto kind = values[0].type->kind;
-      if (is_real(kind) || kind == Kind::real_literal) return math_function(MathFunction::abs, values, e);
-      if (values[0].is_literal() || is_duration(kind) || (is_integer(kind) && is_signed(kind))) {
-        const auto value =
-            values[0].is_literal() ? converted(values[0], *elementary(Kind::lint), e.at) : values[0];
+      if (values[0].is_literal()) return absolute_literal(values[0]);
+      if (is_real(kind)) return math_function(MathFunction::abs, values, e, expected);
+      if (is_duration(kind) || (is_integer(kind) && is_signed(kind))) {
+        const auto& value = values[0];
         const auto* type = elementary(value.type->kind);
         auto result = temporary(type);
         const auto zero = emit_.temporary(), negative = emit_.temporary();
@@ -156,7 +211,7 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
     case FunctionGroup::shift:
       return shift(name, values, e);
     case FunctionGroup::selection:
-      return selection(name, e, std::move(values));
+      return selection(name, e, std::move(values), expected);
     case FunctionGroup::string:
       return string_function(name, values, e);
     case FunctionGroup::order_of_bytes:
@@ -180,14 +235,15 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
   return error();
 }
 
-Value Lowering::math_function(MathFunction function, const std::vector<Value>& values, const Expression& e) {
-  const bool single =
-      std::all_of(values.begin(), values.end(),
-                  [](const Value& v) {
-                    return v.type->kind == Kind::real || v.is_literal() ||
-                           widens(*v.type, *elementary(Kind::real));
-                  }) &&
-      std::any_of(values.begin(), values.end(), [](const Value& v) { return !v.is_literal(); });
+Value Lowering::math_function(MathFunction function, const std::vector<Value>& values, const Expression& e,
+                              const Type* expected) {
+  const bool of_literals =
+      std::all_of(values.begin(), values.end(), [](const Value& v) { return v.is_literal(); });
+  const bool single = of_literals ? expected != nullptr && expected->kind == Kind::real
+                                  : std::all_of(values.begin(), values.end(), [](const Value& v) {
+                                      return v.type->kind == Kind::real || v.is_literal() ||
+                                             widens(*v.type, *elementary(Kind::real));
+                                    });
   const auto* type = elementary(single ? Kind::real : Kind::lreal);
   std::int32_t cells[2] = {0, 0};
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -255,84 +311,6 @@ Value Lowering::shift(const std::string& name, const std::vector<Value>& values,
                 : name == "ROL" ? Op::rotate_left
                                 : Op::rotate_right;
   emit_.add(op, result.place.offset, source, count, static_cast<std::uint16_t>(bits(kind)));
-  return result;
-}
-
-Value Lowering::selection(const std::string& name, const Expression& e, std::vector<Value> values) {
-  Value selector;
-  if (name == "SEL" || name == "MUX") {
-    selector = values[0];
-    values.erase(values.begin());
-    if (name == "SEL") selector = converted(selector, *elementary(Kind::boolean), e.at);
-    if (selector.is_error()) return selector;
-    if (name == "MUX" && !is_integer(selector.type->kind) && selector.type->kind != Kind::integer_literal)
-      return failed(e.at, "the first argument of MUX is an integer, not " + selector.type->name);
-  }
-  const auto* type = values[0].type;
-  for (const auto& value : values) {
-    if (value.is_literal() && (!values[0].is_literal() || value.type->kind == Kind::integer_literal))
-      continue;
-    if (type->kind == Kind::integer_literal || (type->kind == Kind::real_literal && !value.is_literal())) {
-      type = value.is_literal() || !is_integer(value.type->kind) ? value.type : elementary(value.type->kind);
-      continue;
-    }
-    const auto* common = value.is_literal() ? type : common_type(*type, *value.type);
-    if (common == nullptr && type->kind == Kind::string && value.type->kind == Kind::string &&
-        type->wide == value.type->wide)
-      common = type->length >= value.type->length ? type : value.type;
-    if (common == nullptr)
-      return failed(e.at, name + " needs values of one type, not " + type->name + " and " + value.type->name);
-    type = common;
-  }
-  if (type->kind == Kind::integer_literal) type = elementary(Kind::lint);
-  if (type->kind == Kind::real_literal) type = elementary(Kind::lreal);
-  const bool orders = name != "SEL" && name != "MUX";
-  if (orders && (!is_elementary(type->kind) || type->kind == Kind::enumeration))
-    return failed(e.at, name + " is for elementary values, not for " + type->name);
-  auto result = temporary(type);
-  const auto place = result.place;
-  result.place.writable = true;
-  const auto put = [&](const Value& value) { store(result, converted(value, *type, e.at)); };
-  if (!orders) {
-    const auto k = selector.is_constant ? cell(selector, *elementary(Kind::lint)) : cell(selector);
-    std::vector<std::size_t> ends;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      std::optional<std::size_t> next;
-      if (i + 1 < values.size()) {
-        const auto number = emit_.temporary(), other = emit_.temporary();
-        emit_.constant(number, i);
-        emit_.add(Op::not_equal, other, k, number);
-        next = emit_.add(Op::jump_if, 0, other);
-      }
-      put(values[i]);
-      if (next) {
-        ends.push_back(emit_.add(Op::jump));
-        emit_.jump_to_here(*next);
-      }
-    }
-    emit_.jump_to_here(ends);
-  } else if (name == "LIMIT") {
-    // As the standard defines it: MIN(MAX(IN, MN), MX).
-    put(values[1]);
-    for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
-      const auto limit = converted(values[i], *type, e.at);
-      const auto beyond = comparison(i == 0 ? "<" : ">", result, limit, e.at);
-      const auto jump = emit_.add(Op::jump_if_not, 0, cell(beyond));
-      put(limit);
-      emit_.jump_to_here(jump);
-    }
-  } else {
-    put(values[0]);
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      const auto value = converted(values[i], *type, e.at);
-      if (value.is_error()) return value;
-      const auto better = comparison(name == "MAX" ? ">" : "<", value, result, e.at);
-      const auto jump = emit_.add(Op::jump_if_not, 0, cell(better));
-      put(value);
-      emit_.jump_to_here(jump);
-    }
-  }
-  result.place = place;
   return result;
 }
 

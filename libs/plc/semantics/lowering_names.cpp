@@ -51,6 +51,14 @@ Value Lowering::typed(const Expression& e) {
     return failed(inner.at, "expected a literal behind '" + e.text + "#'");
   if (type->kind == Kind::error || !(is_elementary(type->kind) || type->kind == Kind::string))
     return failed(e.at, e.text + " has no literals");
+  if (type->kind == Kind::string && type->wide && inner.kind == Expression::Kind::string) {
+    Expression wide;  // WSTRING#'OK' is WSTRING#"OK"
+    wide.kind = inner.kind;
+    wide.at = inner.at;
+    wide.text = inner.text;
+    wide.base = 16;
+    return converted(expression(wide), *type, inner.at);
+  }
   return converted(expression(inner), *type, inner.at);
 }
 

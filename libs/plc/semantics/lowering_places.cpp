@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "plc/machine/arithmetic.hpp"
 #include "plc/machine/strings.hpp"
@@ -65,6 +66,39 @@ Value Lowering::kept(Value value) {
   auto copy = temporary(value.type);
   emit_.add(Op::move, copy.place.offset, cell(value));
   return copy;
+}
+
+/// A copy in cells of its own; a literal becomes one of the type that takes it.
+Value Lowering::own_copy(const Value& value, const Type* expected, Position at) {
+  const auto* type = value.is_literal()
+                         ? literal_type(*value.type, std::span<const Value>(&value, 1), expected)
+                         : value.type;
+  auto result = temporary(type);
+  result.place.writable = true;
+  store(result, converted(value, *type, at));
+  result.place.writable = false;
+  return result;
+}
+
+/// Behind the instructions that store the value: where the jump leads, it is the initial one of its type.
+void Lowering::initial_at(std::size_t jump, const Value& value) {
+  const auto end = emit_.add(Op::jump);
+  emit_.jump_to_here(jump);
+  fill(value.place.offset, value.type->initial);
+  emit_.jump_to_here(end);
+}
+
+/// Cells of the frame, with few instructions.
+void Lowering::fill(std::int32_t first, const std::vector<std::uint64_t>& cells) {
+  if (cells.size() <= 4) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      emit_.constant(first + static_cast<std::int32_t>(i), cells[i]);
+    return;
+  }
+  const auto from = emit_.temporary(), to = emit_.temporary();
+  emit_.constant(from, unit_.allocate(cells));
+  emit_.add(Op::address, to, first);
+  emit_.add(Op::copy_block, to, from, static_cast<std::int32_t>(cells.size()));
 }
 
 Place Lowering::moved(Place place, std::int32_t cells) const {
@@ -307,16 +341,7 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
 void Lowering::initialize(const Variable& variable) {
   if (variable.type->kind == Kind::error || variable.place.base != Place::Base::frame) return;
   const auto mark = emit_.mark();
-  bool constant_fill = variable.initial.size() <= 4;
-  if (constant_fill) {
-    for (std::size_t i = 0; i < variable.initial.size(); ++i)
-      emit_.constant(variable.place.offset + static_cast<std::int32_t>(i), variable.initial[i]);
-  } else {
-    const auto from = emit_.temporary(), to = emit_.temporary();
-    emit_.constant(from, unit_.allocate(variable.initial));
-    emit_.add(Op::address, to, variable.place.offset);
-    emit_.add(Op::copy_block, to, from, static_cast<std::int32_t>(variable.initial.size()));
-  }
+  fill(variable.place.offset, variable.initial);
   emit_.release(mark);
 }
 

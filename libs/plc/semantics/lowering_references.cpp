@@ -64,6 +64,15 @@ void Lowering::note(const Expression& e, const Value& value, Reference access) {
   auto cells = value.type->cells;
   if (root.kind == Expression::Kind::name) {
     if (defined_.contains(root.name)) return;
+    // Who writes the name of an input with an edge reads the block that detects it.
+    if (const auto input = pou_->names.find(root.detected); input != pou_->names.end()) {
+      Reference read;
+      read.at = root.at;
+      read.pou = pou_;
+      read.variable = input->second;
+      read.reads = true;
+      unit_.references.push_back(std::move(read));
+    }
     if (const auto found = pou_->names.find(root.name); found != pou_->names.end())
       access.variable = found->second;
     if (access.variable == nullptr || access.variable->section == VariableSection::external)

@@ -98,19 +98,8 @@ void Lowering::define(const Statement& s) {
     return;
   }
   if (value.is_constant && !skip) return;
-  auto type = value.type;
-  if (type->kind == Kind::integer_literal) type = elementary(Kind::lint);
-  if (type->kind == Kind::real_literal) type = elementary(Kind::lreal);
-  result = temporary(type);
-  result.place.writable = true;
-  store(result, converted(value, *type, s.value->at));
-  result.place.writable = false;
-  if (!skip) return;
-  const auto end = emit_.add(Op::jump);
-  emit_.jump_to_here(*skip);
-  for (std::uint32_t i = 0; i < type->cells; ++i)
-    emit_.constant(result.place.offset + static_cast<std::int32_t>(i), type->initial[i]);
-  emit_.jump_to_here(end);
+  result = own_copy(value, nullptr, s.value->at);
+  if (skip) initial_at(*skip, result);
 }
 
 void Lowering::label(const Statement& s) {
@@ -261,17 +250,17 @@ void Lowering::for_statement(const Statement& s) {
     good = false;
   }
   const auto* type = good ? variable.type : elementary(Kind::dint);
-  const auto from = converted(expression(*s.value), *elementary(type->kind), s.value->at);
-  const auto to = converted(expression(*s.to), *elementary(type->kind), s.to->at);
+  const auto* plain = elementary(type->kind);
+  const auto from = converted(expression(*s.value, plain), *plain, s.value->at);
+  const auto to = converted(expression(*s.to, plain), *plain, s.to->at);
   Value by = constant_integer(elementary(Kind::lint), 1);
   // A step may be negative although the variable is not.
-  if (s.by)
-    by = converted(expression(*s.by), *elementary(is_signed(type->kind) ? type->kind : Kind::lint), s.by->at);
+  const auto* of_step = is_signed(type->kind) ? plain : elementary(Kind::lint);
+  if (s.by) by = converted(expression(*s.by, of_step), *of_step, s.by->at);
   if (by.is_constant && by.integer == 0 && !by.is_error())
     failed(s.by ? s.by->at : s.at, "the step of FOR is 0: the loop would never end");
   const auto next = emit_.temporary(), limit = emit_.temporary(), step = emit_.temporary(),
              done = emit_.temporary();
-  const auto* plain = elementary(type->kind);
   emit_.add(Op::move, next, cell(from, *plain));
   emit_.add(Op::move, limit, cell(to, *plain));
   emit_.add(Op::move, step, cell(by, *elementary(Kind::lint)));

@@ -290,6 +290,10 @@ void Unit::translate(Pou& pou) {
   if (pou.declaration->kind == PouKind::function_block || is_configured(pou)) return;
   pou.base = allocate(pou.initial);
   if (is_function) return;
+  for (const auto& variable : pou.variables)
+    if (variable.section == VariableSection::in_out)
+      diagnostics_.error(variable.at, "nothing gives VAR_IN_OUT '" + variable.text +
+                                          "' a variable; connect it in a CONFIGURATION, or use VAR_EXTERNAL");
   const bool is_test = pou.declaration->kind == PouKind::test;
   if (is_test) {
     for (const auto timer : pou.timers) code.timers.push_back(pou.base + timer);

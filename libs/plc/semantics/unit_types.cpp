@@ -41,6 +41,7 @@ const Type* Unit::named_type(const std::string& upper) {
   const auto* type = build(*declaration.type, declaration.text, nullptr);
   if (const auto again = named_.find(upper); again != named_.end()) return again->second;
   if (declaration.initial != nullptr && type->kind != Kind::error) {
+    named_[upper] = type;  // TYPE Colour : (red, green) := Colour#green
     auto& own = types_.emplace_back(*type);
     own.initial = initial_cells(declaration.initial.get(), *type, nullptr);
     type = &own;
@@ -131,6 +132,13 @@ const Type* Unit::subrange(const TypeSpec& spec, const Type* base, Pou* context)
 }
 
 const Type* Unit::enumeration(const TypeSpec& spec, const std::string& name) {
+  const auto* base = spec.name.empty() ? elementary(Kind::dint) : named_type(spec.name);
+  const bool whole = base != nullptr && (is_integer(base->kind) || is_bits(base->kind));
+  if (!whole || base->kind == Kind::boolean || bits(base->kind) > 32) {
+    diagnostics_.error(spec.at, "named values are of an integer or bit string of at most 32 bits, not of '" +
+                                    spec.text + "'");
+    base = elementary(Kind::dint);
+  }
   auto& type = types_.emplace_back();
   type.kind = Kind::enumeration;
   type.name = name;
@@ -141,8 +149,10 @@ const Type* Unit::enumeration(const TypeSpec& spec, const std::string& name) {
       continue;
     }
     Value value;
-    if (enumerator.value && constant(*enumerator.value, *elementary(Kind::dint), nullptr, value))
-      next = value.integer;
+    if (!enumerator.value && !fits(*base, next))
+      diagnostics_.error(enumerator.at, std::to_string(next) + " of '" + enumerator.text + "' is outside " +
+                                            limits_text(*base) + " of " + base->name);
+    if (enumerator.value && constant(*enumerator.value, *base, nullptr, value)) next = value.integer;
     type.enumerators.push_back({enumerator.name, enumerator.text, next});
     ++next;
   }

@@ -2,6 +2,7 @@
 // What an expression gives: a constant, or a place in the memory of the machine.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "plc/semantics/type.hpp"
@@ -38,6 +39,9 @@ struct Value {
 
 Value constant_integer(const Type* type, std::int64_t value);
 Value constant_real(const Type* type, double value);
+/// The type of literals of the kind `type` that only the machine chooses between: `expected`, that of what
+/// takes the value, if it has all of them.
+const Type* literal_type(const Type& type, std::span<const Value> values, const Type* expected);
 /// The cell of a constant as a value of the elementary type, to which it converts.
 std::uint64_t constant_cell(const Value& value, const Type& to);
 

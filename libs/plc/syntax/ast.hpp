@@ -17,7 +17,8 @@ using ExpressionPtr = std::unique_ptr<Expression>;
 struct Argument {
   std::string name;  ///< of the parameter, in capitals; empty: by position
   Position at;
-  bool output = false;  ///< name => variable
+  bool output = false;    ///< name => variable
+  bool inverted = false;  ///< NOT name => variable
   ExpressionPtr value;
 };
 
@@ -48,6 +49,8 @@ struct Expression {
   std::vector<ExpressionPtr> parts;
   std::vector<ExpressionPtr> repeat;  ///< of lists: count of each part or nothing
   std::vector<Argument> arguments;
+  std::vector<Argument> control;  ///< of a call: EN := value, ENO => variable
+  std::string detected;           ///< of a block that detects the edges of an input: the input, in capitals
 };
 
 struct Statement;
@@ -90,11 +93,16 @@ struct Statement {
 struct TypeSpec;
 using TypeSpecPtr = std::unique_ptr<TypeSpec>;
 
+/// R_EDGE, F_EDGE: in the body the input is TRUE at a rising, falling edge only.
+enum class InputEdge { none, rising, falling };
+
 struct VariableDeclaration {
   std::string name, text;  ///< in capitals, as written
   Position at;
   std::string location;  ///< of AT, without percent sign
   Position location_at;
+  InputEdge edge = InputEdge::none;
+  Position edge_at;
   TypeSpec* type = nullptr;  ///< shared by the names of one list
   Expression* initial = nullptr;
 };
@@ -111,7 +119,7 @@ struct TypeSpec {
   };
   Kind kind = Kind::named;
   Position at;
-  std::string name, text;   ///< of named
+  std::string name, text;   ///< of named; of an enumeration the type of its values, if it says one
   ExpressionPtr low, high;  ///< of a subrange
   std::vector<Dimension> dimensions;
   TypeSpecPtr element;   ///< of an array

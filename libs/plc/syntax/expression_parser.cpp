@@ -21,6 +21,13 @@ ExpressionPtr ExpressionParser::make(Expression::Kind kind, Position at) const {
   return result;
 }
 
+ExpressionPtr ExpressionParser::make_name(const std::string& text, Position at) const {
+  auto result = make(Expression::Kind::name, at);
+  result->text = text;
+  result->name = upper_case(text);
+  return result;
+}
+
 ExpressionPtr ExpressionParser::expression(int precedence) {
   const Depth depth(*this);
   auto left = unary();
@@ -193,9 +200,15 @@ ExpressionPtr ExpressionParser::designator() {
     node->text = "%" + token.text;
   } else {
     const auto token = expect_name("a variable");
-    node = make(Expression::Kind::name, token.at);
-    node->name = token.upper;
-    node->text = token.text;
+    const auto edge = edges_.find(token.upper);
+    node = make_name(edge == edges_.end() ? token.text : edge->second, token.at);
+    if (edge != edges_.end()) {
+      node->detected = token.upper;
+      auto output = make(Expression::Kind::member, token.at);
+      output->name = output->text = "Q";
+      output->parts.push_back(std::move(node));
+      node = std::move(output);
+    }
   }
   for (std::size_t levels = 0;; ++levels) {
     if (levels > 200) fail("fewer members");
@@ -225,7 +238,10 @@ ExpressionPtr ExpressionParser::designator() {
       node = std::move(index);
     } else if (is_symbol("(")) {
       auto call = make(Expression::Kind::call, node->at);
-      call->arguments = arguments();
+      for (auto& argument : arguments()) {
+        const bool controls = argument.name == (argument.output ? "ENO" : "EN");
+        (controls ? call->control : call->arguments).push_back(std::move(argument));
+      }
       call->parts.push_back(std::move(node));
       node = std::move(call);
     } else {
@@ -241,6 +257,9 @@ std::vector<Argument> ExpressionParser::arguments() {
   do {
     Argument argument;
     argument.at = now().at;
+    argument.inverted = is_word("NOT") && ahead().kind == TokenKind::identifier &&
+                        ahead(2).kind == TokenKind::symbol && ahead(2).text == "=>";
+    if (argument.inverted) take();
     const bool named = now().kind == TokenKind::identifier && ahead().kind == TokenKind::symbol &&
                        (ahead().text == ":=" || ahead().text == "=>");
     if (named) {

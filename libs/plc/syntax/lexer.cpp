@@ -49,7 +49,7 @@ class Lexer {
       } else if (c == '/' && at(1) == '/') {
         while (i_ < source_.size() && at() != '\n') ++i_;
       } else if ((c == '(' && at(1) == '*') || (c == '/' && at(1) == '*')) {
-        comment(c == '(' ? ')' : '/');
+        comment(c, c == '(' ? ')' : '/');
       } else {
         return true;
       }
@@ -57,15 +57,31 @@ class Lexer {
     return false;
   }
 
-  void comment(char last) {
-    const auto start = here();
-    i_ += 2;
-    while (i_ < source_.size() && !(at() == '*' && at(1) == last)) step();
-    if (i_ >= source_.size()) {
-      diagnostics_.error(start, std::string("the comment is not closed: write *") + last + " behind it");
-      return;
-    }
-    i_ += 2;
+  /// Comments of one kind nest (IEC 61131-3:2013, table 3). Whoever does not know it has taken the end of an
+  /// inner one for the end of the outer.
+  void comment(char first, char last) {
+    const Position begin = here();
+    std::string inner;
+    int open = 0;
+    do {
+      if (at() == first && at(1) == '*') {
+        if (open == 1 && inner.empty()) inner = place(here());
+        ++open;
+        i_ += 2;
+      } else if (at() == '*' && at(1) == last) {
+        --open;
+        i_ += 2;
+      } else {
+        step();
+      }
+    } while (open > 0 && i_ < source_.size());
+    if (open == 0) return;
+    diagnostics_.error(begin, std::string("the comment is not closed: write *") + last + " behind it" +
+                                  (inner.empty() ? "" : ", or behind the one that begins in it at " + inner));
+  }
+
+  static std::string place(const Position& at) {
+    return std::to_string(at.line) + ":" + std::to_string(at.column);
   }
 
   void word() {
@@ -74,6 +90,7 @@ class Lexer {
     if (digit(c)) return number();
     if (c == '\'' || c == '"') return string(c);
     if (c == '%') return direct();
+    if (c == '{') return pragma();
     Token token{TokenKind::symbol, "", "", 10, here()};
     for (const auto symbol : long_symbols)
       if (!symbol.empty() && source_.substr(i_, symbol.size()) == symbol) token.text = symbol;
@@ -89,6 +106,13 @@ class Lexer {
     }
     i_ += token.text.size();
     tokens_.push_back(std::move(token));
+  }
+
+  /// As a whole, so that there is one error.
+  void pragma() {
+    diagnostics_.error(here(), "there are no pragmas in braces; write a comment, (* *)");
+    while (i_ < source_.size() && at() != '}') step();
+    if (i_ < source_.size()) step();
   }
 
   void identifier() {

@@ -2,6 +2,7 @@
 #include "plc/syntax/parser.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace trunnion::st {
@@ -98,7 +99,10 @@ TypeSpecPtr DeclarationParser::type_spec() {
     const auto name = expect_name("a type");
     spec->name = name.upper;
     spec->text = name.text;
-    if (is_symbol("(")) {
+    if (at_named_values()) {
+      take();
+      enumeration(*spec);
+    } else if (is_symbol("(")) {
       take();
       spec->low = expression();
       expect_symbol("..", "between the limits of the subrange");
@@ -107,6 +111,13 @@ TypeSpecPtr DeclarationParser::type_spec() {
     }
   }
   return spec;
+}
+
+/// INT (low := 1, high := 5); a subrange has ".." behind its first limit.
+bool DeclarationParser::at_named_values() const {
+  const auto& behind = ahead(2);
+  return is_symbol("(") && ahead().kind == TokenKind::identifier && behind.kind == TokenKind::symbol &&
+         (behind.text == ":=" || behind.text == "," || behind.text == ")");
 }
 
 void DeclarationParser::enumeration(TypeSpec& spec) {
@@ -143,6 +154,12 @@ void DeclarationParser::variable_list(std::vector<VariableDeclaration>& variable
   } while (accept_symbol(","));
   expect_symbol(":", "before the type of the variable");
   types.push_back(type_spec());
+  auto edge = InputEdge::none;
+  const auto edge_at = now().at;
+  if (locations && accept_word("R_EDGE"))
+    edge = InputEdge::rising;
+  else if (locations && accept_word("F_EDGE"))
+    edge = InputEdge::falling;
   Expression* initial = nullptr;
   if (accept_symbol(":=")) {
     initials.push_back(initializer());
@@ -151,6 +168,8 @@ void DeclarationParser::variable_list(std::vector<VariableDeclaration>& variable
   expect_symbol(";", "behind the declaration");
   for (auto i = first; i < variables.size(); ++i) {
     variables[i].type = types.back().get();
+    variables[i].edge = edge;
+    variables[i].edge_at = edge_at;
     variables[i].initial = initial;
   }
 }
@@ -186,12 +205,76 @@ VariableBlock DeclarationParser::variable_block() {
     }
   }
   take();
+  for (auto& variable : block.variables) {
+    const bool is_bool = variable.type->kind == TypeSpec::Kind::named && variable.type->name == "BOOL";
+    if (variable.edge == InputEdge::none || (block.section == VariableSection::input && is_bool)) continue;
+    refuse_edge(variable);
+    variable.edge = InputEdge::none;
+  }
   return block;
+}
+
+void DeclarationParser::refuse_edge(const VariableDeclaration& variable) {
+  diagnostics_.error(variable.edge_at,
+                     "R_EDGE and F_EDGE are for VAR_INPUT of programs and function blocks, and for BOOL");
 }
 
 bool DeclarationParser::at_pou_end() const {
   return is_word("END_PROGRAM") || is_word("END_FUNCTION") || is_word("END_FUNCTION_BLOCK") ||
          is_word("END_TEST") || is_word("VAR");
+}
+
+/// The edge detections of the inputs of one list, and their calls.
+VariableBlock DeclarationParser::edge_blocks(const VariableBlock& block, const PouDeclaration& pou,
+                                             Statements& calls) {
+  const auto is_taken = [&](const std::string& upper) {
+    return std::any_of(pou.blocks.begin(), pou.blocks.end(), [&](const VariableBlock& one) {
+      return std::any_of(one.variables.begin(), one.variables.end(),
+                         [&](const VariableDeclaration& variable) { return variable.name == upper; });
+    });
+  };
+  VariableBlock result;
+  result.retain = block.retain;
+  result.at = block.at;
+  for (const auto& variable : block.variables) {
+    if (variable.edge == InputEdge::none) continue;
+    if (pou.kind != PouKind::function_block && pou.kind != PouKind::program) {
+      refuse_edge(variable);
+      continue;
+    }
+    const bool rising = variable.edge == InputEdge::rising;
+    auto& detection = result.variables.emplace_back();
+    detection.text = variable.text + (rising ? "_rising" : "_falling");
+    while (is_taken(upper_case(detection.text))) detection.text += '_';
+    detection.name = upper_case(detection.text);
+    detection.at = variable.edge_at;
+    auto& type = result.types.emplace_back(std::make_unique<TypeSpec>());
+    type->at = variable.edge_at;
+    type->name = type->text = rising ? "R_TRIG" : "F_TRIG";
+    detection.type = type.get();
+    edges_[variable.name] = detection.text;
+    auto& call = calls.emplace_back(std::make_unique<Statement>());
+    call->kind = Statement::Kind::call;
+    call->at = variable.edge_at;
+    call->value = make(Expression::Kind::call, variable.edge_at);
+    call->value->parts.push_back(make_name(detection.text, variable.edge_at));
+    auto& argument = call->value->arguments.emplace_back();
+    argument.name = "CLK";
+    argument.at = variable.edge_at;
+    argument.value = make_name(variable.text, variable.edge_at);
+  }
+  return result;
+}
+
+/// Of all inputs with an edge; their detections are among the variables of the unit behind it.
+Statements DeclarationParser::edge_calls(PouDeclaration& pou) {
+  edges_.clear();
+  Statements calls;
+  std::vector<VariableBlock> added;
+  for (const auto& block : pou.blocks) added.push_back(edge_blocks(block, pou, calls));
+  for (auto& block : added)
+    if (!block.variables.empty()) pou.blocks.push_back(std::move(block));
+  return calls;
 }
 
 void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view what) {
@@ -226,7 +309,10 @@ void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view
     if (std::find(std::begin(sections), std::end(sections), now().upper) == std::end(sections)) break;
     pou.blocks.push_back(variable_block());
   }
-  pou.body = statements({"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"});
+  pou.body = edge_calls(pou);
+  auto body = statements({"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"});
+  edges_.clear();
+  std::move(body.begin(), body.end(), std::back_inserter(pou.body));
   pou.end = now().at;
   expect_word(end, "at the end of " + std::string(what));
   accept_symbol(";");

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <string_view>
 
 #include "plc/syntax/ast.hpp"
@@ -84,11 +86,16 @@ class ExpressionParser : public TokenReader {
   /// A variable, or a call of a function or function block.
   ExpressionPtr designator();
   std::vector<Argument> arguments();
+  ExpressionPtr make(Expression::Kind kind, Position at) const;
+  ExpressionPtr make_name(const std::string& text, Position at) const;
+
+  /// Of the unit whose body is read: inputs with R_EDGE or F_EDGE, in capitals, and the blocks that detect
+  /// the edges.
+  std::map<std::string, std::string, std::less<>> edges_;
 
  private:
   ExpressionPtr unary();
   ExpressionPtr primary();
-  ExpressionPtr make(Expression::Kind kind, Position at) const;
   ExpressionPtr typed_literal();
   bool is_called_operator() const;
   ExpressionPtr operator_call();
@@ -126,10 +133,14 @@ class DeclarationParser : public StatementParser {
   void recover();
   void type_block();
   TypeSpecPtr type_spec();
+  bool at_named_values() const;
   void enumeration(TypeSpec& spec);
   void variable_list(std::vector<VariableDeclaration>& variables, std::vector<TypeSpecPtr>& types,
                      std::vector<ExpressionPtr>& initials, bool locations);
   VariableBlock variable_block();
+  void refuse_edge(const VariableDeclaration& variable);
+  VariableBlock edge_blocks(const VariableBlock& block, const PouDeclaration& pou, Statements& calls);
+  Statements edge_calls(PouDeclaration& pou);
   bool at_pou_end() const;
   void pou(PouKind kind, std::string_view end, std::string_view what);
   void configuration();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "plc/syntax/parser.hpp"
 
@@ -134,18 +136,25 @@ void StatementParser::if_statement(Statement& s) {
   expect_word("END_IF", "at the end of IF");
 }
 
-// "3:", "3, 4:", "3..5:", "RED:", "Color#red:", "-1:"; an assignment has ":=" or a designator first.
+// "3:", "3, 4:", "3..5:", "RED:", "Color#red:", "-1:", "2 * N:", "N MOD 2:"; an assignment has ":=" or a
+// designator first, another statement two words that follow each other, as CASE n OF 0:
 bool StatementParser::at_case_label() const {
+  bool behind_value = false;
   for (std::size_t i = 0; i < 400; ++i) {
     const auto& token = ahead(i);
     if (token.kind == TokenKind::end) return false;
     if (token.kind == TokenKind::symbol) {
       if (token.text == ":") return true;
-      if (token.text != "," && token.text != ".." && token.text != "-" && token.text != "#" &&
-          token.text != "+")
-        return false;
-    } else if (token.kind != TokenKind::integer && token.kind != TokenKind::identifier) {
+      constexpr std::array symbols =
+          std::to_array<std::string_view>({",", "..", "-", "#", "+", "*", "/", "**"});
+      if (std::find(symbols.begin(), symbols.end(), token.text) == symbols.end()) return false;
+      behind_value = false;
+    } else if (behind_value && token.kind == TokenKind::identifier && token.upper == "MOD") {
+      behind_value = false;
+    } else if (behind_value || (token.kind != TokenKind::integer && token.kind != TokenKind::identifier)) {
       return false;
+    } else {
+      behind_value = true;
     }
   }
   return false;

@@ -29,8 +29,8 @@ struct Token {
   Position at;
 };
 
-/// The words of a source, with one `end` behind them. The three kinds of comments of the standard, not
-/// nested.
+/// The words of a source, with one `end` behind them. Of the three kinds of comments of the
+/// standard (* *) and /* */ nest.
 std::vector<Token> tokenize(std::string_view source, std::uint16_t file, Diagnostics& diagnostics);
 
 /// ASCII capitals.

@@ -28,7 +28,12 @@ TEST(Bistable, SetOrResetDominates) {
 
 TEST(Edges, LastOneScan) {
   EXPECT_EQ(trace("R_TRIG", "CLK := x", "Q", "0110100"), "0100100");
-  EXPECT_EQ(trace("F_TRIG", "CLK := x", "Q", "0110100"), "0001010");
+  // Table 44: Q := NOT CLK AND NOT M; M := NOT CLK; M is FALSE at the first call, which also gives an edge.
+  EXPECT_EQ(trace("F_TRIG", "CLK := x", "Q", "0110100"), "1001010");
+  EXPECT_EQ(trace("F_TRIG", "CLK := x", "Q", "1100"), "0010");
+  EXPECT_EQ(trace("FALLING_EDGE", "CLK := x", "Q", "0110100"), "0001010");
+  // As R_TRIG does at a first TRUE.
+  EXPECT_EQ(trace("R_TRIG", "CLK := x", "Q", "1100"), "1000");
 }
 
 TEST(Counters, CountRisingEdges) {

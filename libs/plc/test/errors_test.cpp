@@ -58,6 +58,10 @@ const Wrong programs[] = {
     {true, "i := w + 1;", "3:8: error: '+' is for numbers, not for WORD; convert with WORD_TO_UINT"},
     {true, "d := ul + d;",
      "3:9: error: '+' between ULINT and DINT is not defined; convert one side, as with DINT_TO_ULINT"},
+    {true, "b := ul > 2.5;",
+     "3:9: error: '>' between ULINT and LREAL is not defined; convert one side, as with LREAL_TO_ULINT"},
+    {true, "l := 2.5 * ul;",
+     "3:10: error: '*' between LREAL and ULINT is not defined; convert one side, as with ULINT_TO_LREAL"},
     {true, "b := s = 1;", "3:8: error: '=' is for elementary values, not for STRING[5]"},
     {true, "b := p = p;", "3:8: error: '=' is for elementary values, not for Point"},
     {true, "b := c < red;", "3:8: error: enumerated values are compared by = and <> only"},
@@ -82,6 +86,10 @@ const Wrong programs[] = {
     {true, "i := twice(1, 2);", "3:15: error: 'twice' has fewer parameters than arguments"},
     {true, "i := twice(w := 1);", "3:12: error: 'twice' has no parameter 'W'"},
     {true, "i := twice('a');", "3:12: error: expected INT, found STRING[1]"},
+    {true, "i := twice(EN := i, 1);",
+     "3:18: error: the condition of EN is BOOL, not INT; compare: value <> 0"},
+    {true, "i := twice(EN := b, EN := b, 1);", "3:21: error: EN has two values"},
+    {true, "i := twice(1, ENO => i);", "3:22: error: expected INT, found BOOL; convert with BOOL_TO_INT"},
     {true, "i := twise(1);", "3:6: error: there is no function 'twise'"},
     {true, "i := ton1;", "3:6: error: expected INT, found TON"},
     {true, "ton1.Q := TRUE;",
@@ -89,6 +97,8 @@ const Wrong programs[] = {
     {true, "ton1.M := TRUE;", "3:6: error: 'M' is inside TON; only its inputs and outputs are accessible"},
     {true, "ton1(IN := 1 + 1);", "3:14: error: BOOL is TRUE or FALSE, not 2"},
     {true, "ton1(XX := TRUE);", "3:6: error: 'TON' has no parameter 'XX'"},
+    {true, "ton1(NOT ET => t);", "3:6: error: NOT is for BOOL and bit strings, not for TIME"},
+    {true, "ton1(NOT IN => b);", "3:6: error: 'IN' is an input: write := value"},
     {true, "ton1(IN => b);", "3:6: error: 'IN' is an input: write := value"},
     {true, "ton1(Q := b);", "3:6: error: 'Q' is an output: write => variable"},
     {true, "ton1 := ton1;", "3:1: error: a function block cannot be assigned to; set its inputs"},
@@ -124,7 +134,11 @@ const Wrong programs[] = {
     {true, "s := 'abc;", "3:6: error: the string is not closed: write ' behind it"},
     {true, "s := '$Q';", "3:7: error: '$' begins $$, $', $\", $L, $N, $P, $R, $T or two hexadecimal digits"},
     {true, "i := @;", "3:6: error: unexpected character '@'"},
+    {true, "{VERSION 2.0} i := 1;", "3:1: error: there are no pragmas in braces; write a comment, (* *)"},
     {true, "(* never", "3:1: error: the comment is not closed: write *) behind it"},
+    {true, "d := 1; (* outer (* inner *)",
+     "3:9: error: the comment is not closed: write *) behind it, or behind the one that begins in it at "
+     "3:18"},
     {true, "b := w.%X16;", "3:8: error: %X16 is outside WORD, which has the parts 0 .. 15 of this size"},
     {true, "b := i.%X0;", "3:8: error: a part is of BYTE, WORD, DWORD or LWORD, not of INT"},
     {true, "b := %X0.8;", "3:6: error: '%X0.8': the bit is outside 0 .. 7"},
@@ -163,6 +177,8 @@ const Wrong programs[] = {
     {true, "i := TO_BIG_ENDIAN(1);", "3:6: error: TO_BIG_ENDIAN needs a typed literal, as WORD#16#FF"},
     {true, "s := TO_BIG_ENDIAN(s);",
      "3:6: error: TO_BIG_ENDIAN is for integers, bit strings, REAL, LREAL and times, not for STRING[5]"},
+    {true, "i := ADD_INT(i, d);", "3:17: error: expected INT, found DINT; convert with DINT_TO_INT"},
+    {true, "i := ADD_FOO(i, d);", "3:6: error: there is no function 'ADD_FOO'"},
     {true, "b := AND(b);", "3:6: error: AND has 2 or more arguments, not 1"},
     {true, "i := MOD(i, i, i);", "3:6: error: MOD has 2 arguments, not 3"},
     {true, "b := OR(IN1 := b, IN3 := b);",
@@ -224,11 +240,30 @@ const Wrong programs[] = {
      "1:26: error: 'B' calls or contains itself; recursion is not permitted (IEC 61131-3, 6.6.1)"},
     {false, "FUNCTION_BLOCK TON END_FUNCTION_BLOCK",
      "1:16: error: 'TON' is declared already in the standard library"},
+    {false,
+     "PROGRAM main VAR_INPUT EN : BOOL; END_VAR VAR n : INT; END_VAR IF EN THEN n := 1; END_IF; END_PROGRAM "
+     "TEST 'a' main(EN := TRUE); END_TEST",
+     "1:112: error: a program is called without arguments; assign program.variable before"},
+    {false, "FUNCTION_BLOCK B VAR_INPUT i : INT R_EDGE; END_VAR END_FUNCTION_BLOCK",
+     "1:36: error: R_EDGE and F_EDGE are for VAR_INPUT of programs and function blocks, and for BOOL"},
+    {false, "FUNCTION F : INT VAR_INPUT i : BOOL F_EDGE; END_VAR F := 1; END_FUNCTION",
+     "1:37: error: R_EDGE and F_EDGE are for VAR_INPUT of programs and function blocks, and for BOOL"},
+    {false, "VAR_GLOBAL g : BOOL R_EDGE; END_VAR",
+     "1:21: error: R_EDGE and F_EDGE are for VAR_INPUT of programs and function blocks, and for BOOL"},
+    {false, "FUNCTION_BLOCK B VAR_INPUT i : BOOL R_EDGE; END_VAR i := TRUE; END_FUNCTION_BLOCK",
+     "1:53: error: this output of a function block is set by the block alone and cannot be written"},
     {false, "FUNCTION ABS : INT ABS := 1; END_FUNCTION", "1:10: error: 'ABS' is a standard function"},
     {false, "TYPE T1 : STRUCT a : T1; END_STRUCT; END_TYPE", "1:6: error: the type 'T1' contains itself"},
     {false, "TYPE INT : DINT; END_TYPE", "1:6: error: 'INT' is a type of the standard"},
     {false, "TYPE C : (a, a); END_TYPE", "1:14: error: the enumerated value 'a' is declared twice"},
     {false, "TYPE S : INT (10..1); END_TYPE", "1:10: error: the lower limit 10 is above the upper limit 1"},
+    {false, "TYPE L : REAL (low := 1); END_TYPE",
+     "1:10: error: named values are of an integer or bit string of at most 32 bits, not of 'REAL'"},
+    {false, "TYPE L : LINT (low, high); END_TYPE",
+     "1:10: error: named values are of an integer or bit string of at most 32 bits, not of 'LINT'"},
+    {false, "TYPE L : SINT (low := 200); END_TYPE", "1:23: error: 200 is outside -128 .. 127 of SINT"},
+    {false, "TYPE L : SINT (low := 127, high); END_TYPE",
+     "1:28: error: 128 of 'high' is outside -128 .. 127 of SINT"},
     {false, "TYPE S : REAL (1..2); END_TYPE", "1:10: error: a subrange is of an integer type, not of REAL"},
     {false, "TYPE S : STRUCT END_STRUCT; END_TYPE", "1:10: error: a structure has at least one field"},
     {false, "PROGRAM main VAR_EXTERNAL g : INT; END_VAR g := 1; END_PROGRAM",
@@ -260,6 +295,9 @@ const Wrong programs[] = {
      "1:293: error: VAR_IN_OUT 'z' is INT, not DINT"},
     {false, "FUNCTION_BLOCK B VAR_INPUT i : INT; END_VAR i := 1; END_FUNCTION_BLOCK",
      "1:45: error: 'i' is an input of the function block and cannot be written"},
+    {false, "PROGRAM main VAR_IN_OUT x : INT; END_VAR x := 5; END_PROGRAM",
+     "1:25: error: nothing gives VAR_IN_OUT 'x' a variable; connect it in a CONFIGURATION, or use "
+     "VAR_EXTERNAL"},
     {false, "FUNCTION_BLOCK B VAR_IN_OUT i : INT := 1; END_VAR i := 1; END_FUNCTION_BLOCK",
      "1:29: error: VAR_IN_OUT 'i' is the caller's variable and has no initial value"},
     {false, "FUNCTION f : INT VAR_TEMP x AT %X0.0 : BOOL; END_VAR f := 1; END_FUNCTION",
@@ -302,6 +340,15 @@ TEST(Errors, SeveralAreReportedInOneRun) {
                                    testing::HasSubstr("a.st:3:6: error:"),
                                    testing::HasSubstr("a.st:4:3: error: expected ':='"),
                                    testing::HasSubstr("a.st:7:1: error: expected the name of a function")));
+}
+
+TEST(Errors, APragmaIsOne) {
+  const auto result = compile(
+      {{"a.st", "{AUTHOR me}\nPROGRAM a\nVAR i : INT; END_VAR\ni := {x := 1,\n y := 2} 1;\nEND_PROGRAM\n"}},
+      interface_registers());
+  EXPECT_THAT(result.lines(),
+              testing::ElementsAre(testing::HasSubstr("a.st:1:1: error: there are no pragmas in braces"),
+                                   testing::HasSubstr("a.st:4:6: error: there are no pragmas in braces")));
 }
 
 TEST(Errors, DeepNestingIsRefused) {

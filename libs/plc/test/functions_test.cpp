@@ -99,6 +99,12 @@ const Row rows[] = {
     {"INT", "LIMIT(MN := INT#0, IN := INT#2, MX := INT#3)", "2"},
     {"LREAL", "MAX(1.5, 2.5)", "2.5"},
     {"TIME", "MIN(T#1s, T#2s)", "T#1s"},
+    {"STRING", "MAX('abd', 'abc', 'ab')", "'abd'"},
+    {"STRING", "MIN('abd', 'abc', 'ab')", "'ab'"},
+    {"STRING", "LIMIT('b', 'abc', 'd')", "'b'"},
+    {"STRING", "LIMIT('b', 'longer than both', 'd')", "'d'"},
+    {"STRING", "LIMIT('b', 'c', 'longer than both')", "'c'"},
+    {"STRING", "CONCAT(MAX('a', 'bc'), 'd')", "'bcd'"},
     {"INT", "MUX(0, INT#10, INT#20, INT#30)", "10"},
     {"INT", "MUX(K := 1, IN0 := INT#10, IN1 := INT#20)", "20"},
     {"INT", "MAX(IN2 := INT#1, IN1 := INT#3)", "3"},
@@ -227,6 +233,14 @@ const Row rows[] = {
     {"BYTE", "NOT(BYTE#16#F0)", "15"},
     {"BYTE", "NOT(IN := b15)", "240"},
     {"BYTE", "NOT(b15) AND BYTE#16#30", "48"},
+    // the type in the name of an operation (table 21): of SINT and BYTE these would be -2 and 0
+    {"INT", "ADD_INT(s127, s127)", "254"},
+    {"WORD", "SHL_WORD(b15, 12)", "61440"},
+    {"REAL", "DIV_REAL(1, 4)", "0.25"},
+    {"LREAL", "SQRT_LREAL(REAL#2.25)", "1.5"},
+    {"LREAL", "EXPT_LREAL(IN2 := 3, IN1 := 2)", "8.0"},
+    {"DINT", "SEL_DINT(i0 = 0, 1, s127)", "127"},
+    {"BOOL", "GT_LREAL(1, 0.5)", "TRUE"},
     // LTIME (table 35)
     {"LINT", "LTIME_TO_LINT(ADD_LTIME(LT#1us, LT#5ns))", "1005"},
     {"LINT", "LTIME_TO_LINT(ADD_LTIME(T#1ms, LT#5ns))", "1000005"},
@@ -248,18 +262,71 @@ const Row rows[] = {
     {"DATE", "LDT_TO_DATE(LDT#2024-02-29-13:00:00)", "D#2024-02-29"},
 };
 
+// Literals of whole numbers are ANY_INT, those with a point ANY_REAL (IEC 61131-3:2013, table 5): a function
+// of literals only takes the type of what takes its value.
+const Row literal_rows[] = {
+    {"INT", "SEL(b15 = BYTE#15, 3, 4)", "4"},
+    {"INT", "MUX(i0, 3, 4)", "3"},
+    {"INT", "ABS(-5)", "5"},
+    {"INT", "MAX(1, 3, 2)", "3"},
+    {"INT", "MIN(3, 1, 2)", "1"},
+    {"INT", "LIMIT(0, 5, 3)", "3"},
+    {"USINT", "SEL(i0 = 0, 3, 255)", "255"},
+    {"WORD", "SEL(i0 = 0, 16#1, 16#FFFF)", "65535"},
+    {"ULINT", "MAX(18446744073709551615, 1)", "18446744073709551615"},
+    {"ULINT", "ABS(-9223372036854775808)", "9223372036854775808"},
+    {"INT", "i0 + SEL(i0 = 0, 3, 4) * 2", "8"},
+    {"INT", "-SEL(i0 = 0, 3, 4)", "-4"},
+    {"REAL", "SEL(i0 = 0, 3, 4)", "4.0"},
+    {"REAL", "MUX(i0, 1.5, 2)", "1.5"},
+    {"REAL", "ABS(-1.5)", "1.5"},
+    {"REAL", "ABS(-0.1)", "0.1"},
+    {"REAL", "MAX(1, 2.5)", "2.5"},
+    {"REAL", "MAX(3, 2.5)", "3.0"},
+    {"REAL", "LIMIT(0, 0.5, 1)", "0.5"},
+    {"REAL", "SQRT(2.25)", "1.5"},
+    {"REAL", "SQRT(4)", "2.0"},
+    {"REAL", "f0 + SQRT(2.25) * 2.0", "3.0"},
+    {"REAL", "2.0 ** 3", "8.0"},
+    {"REAL", "EXPT(2.0, 3)", "8.0"},
+    {"LREAL", "SQRT(2.25)", "1.5"},
+    {"LREAL", "SEL(i0 = 0, 1.5, 2)", "2.0"},
+    {"DINT", "SEL(i0 = 0, 3, 2147483647)", "2147483647"},
+    {"BOOL", "f0 < SQRT(2.25)", "TRUE"},
+    {"BOOL", "u1 = SEL(i0 = 0, 0, 1)", "TRUE"},
+    {"BOOL", "u1 = 1 AND SEL(i0 = 0, 0, 1)", "TRUE"},
+    {"BOOL", "GT(SEL(i0 = 0, 3, 4), 3)", "TRUE"},
+    {"BYTE", "SHL(b15, SEL(i0 = 0, 0, 1))", "30"},
+};
+
 constexpr const char* function_variables =
     "VAR i0 : INT; s127 : SINT := 127; u1 : USINT := 1; ul1 : ULINT := 1; b15 : BYTE := 15; d200 : DINT := "
     "200; f0 : REAL; l0 : LREAL;";
 
+void expect_value(const Row& row) {
+  SCOPED_TRACE(row.expression);
+  Translated program(std::string(function_variables) + " result : " + row.type + "; END_VAR",
+                     std::string("result := ") + row.expression + ";");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("result"), row.expected);
+}
+
 TEST(StandardFunctions, GiveTheValuesOfTheirDefinition) {
-  for (const auto& row : rows) {
-    SCOPED_TRACE(row.expression);
-    Translated program(std::string(function_variables) + " result : " + row.type + "; END_VAR",
-                       std::string("result := ") + row.expression + ";");
-    EXPECT_EQ(program.scan(), "");
-    EXPECT_EQ(program.get("result"), row.expected);
-  }
+  for (const auto& row : rows) expect_value(row);
+}
+
+TEST(StandardFunctions, OfLiteralsFitTheTypeThatTakesTheirValue) {
+  for (const auto& row : literal_rows) expect_value(row);
+}
+
+TEST(StandardFunctions, OfLiteralsAreLimitsAndStepOfALoop) {
+  Translated program("VAR i, n : INT; b : BOOL; END_VAR",
+                     "FOR i := SEL(b, 1, 0) TO SEL(b, 3, 4) BY SEL(b, 1, 2) DO n := n + 1; END_FOR;");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("n"), "3");  // 1, 2, 3
+  program.set("b", "TRUE");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("n"), "6");  // and 0, 2, 4
 }
 
 // Constants are folded by the translator: the same expression of variables is computed by the

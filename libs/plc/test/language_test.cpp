@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <random>
+#include <tuple>
 
 #include "translated.hpp"
 
@@ -20,12 +21,20 @@ TEST(Statements, IfTakesTheFirstBranchThatIsTrue) {
 }
 
 TEST(Statements, CaseHasValuesRangesAndEnumeratedValues) {
-  Translated program("VAR i, r : INT; c : Color; s : STRING; END_VAR",
-                     "CASE i OF -1: r := 1; 3, 5..7: r := 2; ELSE r := 3; END_CASE;\n"
+  // 5 * 4 is 20, 27 MOD 4 + 40 is 43.
+  Translated program("VAR i, r : INT; c : Color; s : STRING; END_VAR VAR CONSTANT k : INT := 4; END_VAR",
+                     "CASE i OF -1: r := 1; 3, 5..7: r := 2; 5 * k: r := 4; 27 MOD k + 40: r := 5;\n"
+                     "ELSE r := 3; END_CASE;\n"
                      "CASE c OF red: s := 'r'; Color#green, blue: s := 'gb'; END_CASE;",
                      "TYPE Color : (red, green, blue); END_TYPE\n");
-  for (const auto& [in, out] :
-       {std::pair{"-1", "1"}, {"3", "2"}, {"4", "3"}, {"5", "2"}, {"7", "2"}, {"8", "3"}}) {
+  for (const auto& [in, out] : {std::pair{"-1", "1"},
+                                {"3", "2"},
+                                {"4", "3"},
+                                {"5", "2"},
+                                {"7", "2"},
+                                {"8", "3"},
+                                {"20", "4"},
+                                {"43", "5"}}) {
     program.set("i", in);
     program.scan();
     EXPECT_EQ(program.get("r"), out) << in;
@@ -34,6 +43,26 @@ TEST(Statements, CaseHasValuesRangesAndEnumeratedValues) {
   program.set("c", "blue");
   program.scan();
   EXPECT_EQ(program.get("s"), "'gb'");
+}
+
+// What begins the statements of a case is no label, though a colon follows: CASE n OF 0:
+TEST(Statements, CaseStandsDirectlyInCase) {
+  Translated program("VAR i, n, r : INT; END_VAR",
+                     "CASE i OF\n"
+                     "  0: CASE n OF 0: r := 1; 1, 2: r := 2; ELSE r := 3; END_CASE;\n"
+                     "  1: CASE -n OF -1: CASE n + i OF 2: r := 4; END_CASE; END_CASE;\n"
+                     "  ELSE CASE n OF 7: r := 5; END_CASE;\n"
+                     "END_CASE;");
+  for (const auto& [i, n, r] : {std::tuple{"0", "0", "1"},
+                                {"0", "2", "2"},
+                                {"0", "5", "3"},
+                                {"1", "1", "4"},
+                                {"2", "7", "5"},
+                                {"2", "1", "5"}}) {
+    program.set("i", i), program.set("n", n);
+    EXPECT_EQ(program.scan(), "");
+    EXPECT_EQ(program.get("r"), r) << i << " " << n;
+  }
 }
 
 TEST(Statements, LoopsCountExitAndContinue) {
@@ -89,6 +118,35 @@ TEST(Types, ArraysHaveAnyLimitsAndDimensions) {
   EXPECT_EQ(program.get("sum"), "19");  // 1 + 2 + 5 + 5 + 6 + 0
   EXPECT_EQ(program.get("a"), "[1, 2, 5, 5, 40, 0]");
   EXPECT_EQ(program.get("s"), "[[0, 7], [0, 0]]");
+}
+
+TEST(Types, EnumerationsHaveATypedValueAndAFirstValueOfTheirOwn) {
+  Translated program(
+      "VAR c : Colour; t : Signal; d : Colour := red; is_green, is_go : BOOL; END_VAR",
+      "is_green := c = Colour#green; is_go := t = Signal#green; t := Signal#stop; c := SEL(is_green, c, "
+      "red);",
+      "TYPE Colour : (red, green) := green; Signal : (stop := 5, green := 7) := Signal#green; END_TYPE\n");
+  EXPECT_EQ(program.get("c"), "green");
+  EXPECT_EQ(program.get("d"), "red");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("is_green"), "TRUE");
+  EXPECT_EQ(program.get("is_go"), "TRUE");
+  EXPECT_EQ(program.get("t"), "stop");
+  EXPECT_EQ(program.get("c"), "red");
+}
+
+TEST(Types, BitStringsHaveTypedLiterals) {
+  Translated program("VAR a, b : BOOL; c : BYTE; d : WORD; e : DWORD; f : LWORD; END_VAR",
+                     "a := BOOL#1; b := BOOL#FALSE; c := BYTE#2#1010_1010; d := NOT WORD#16#FF;\n"
+                     "e := SHL(DWORD#8#17, 4); f := LWORD#16#FFFF_FFFF_FFFF_FFFF;");
+  program.set("b", "TRUE");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("a"), "TRUE");
+  EXPECT_EQ(program.get("b"), "FALSE");
+  EXPECT_EQ(program.get("c"), "170");
+  EXPECT_EQ(program.get("d"), "65280");  // 16#FF00
+  EXPECT_EQ(program.get("e"), "240");    // 15 * 16
+  EXPECT_EQ(program.get("f"), "18446744073709551615");
 }
 
 TEST(Types, StructuresAreCopiedAsAWhole) {
@@ -154,6 +212,16 @@ TEST(Types, LiteralsOfEveryKind) {
                                     {"l", "T#-2s500ms"},
                                     {"m", "18446744073709551615"},
                                     {"n", "65535"}})
+    EXPECT_EQ(program.get(name), value) << name;
+}
+
+// Comments of one kind nest, the other kind and // mean nothing in them (IEC 61131-3:2013, table 3).
+TEST(Comments, Nest) {
+  Translated program("VAR a, b, c, d, e : INT; END_VAR",
+                     "a := 1; (* b := 1; (* c := 1; (**) *) d := 1; // *) b := 2;\n"
+                     "/* c := 1; /* d := 1; (* */ e := 1;\n */ c := 3; (*/* *) d := 4; /*(* */ e := 5;");
+  EXPECT_EQ(program.scan(), "");
+  for (const auto& [name, value] : {std::pair{"a", "1"}, {"b", "2"}, {"c", "3"}, {"d", "4"}, {"e", "5"}})
     EXPECT_EQ(program.get(name), value) << name;
 }
 

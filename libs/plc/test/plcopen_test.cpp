@@ -90,7 +90,7 @@ struct Edges {
   std::string calls;
   std::string add(const Circuit& c) {
     const auto name = "e" + std::to_string(instances.size());
-    instances.emplace_back(name, c.edge == "rising" ? "R_TRIG" : "F_TRIG");
+    instances.emplace_back(name, c.edge == "rising" ? "R_TRIG" : "FALLING_EDGE");
     calls += name + "(CLK := " + c.variable + "); ";
     return name;
   }
@@ -209,6 +209,20 @@ TEST(Plcopen, CoilsPassThePowerAndDetectEdges) {
   }
   EXPECT_EQ(b, "01001");
   EXPECT_EQ(q, "00010");
+}
+
+// A contact senses a change: there is none at the first scan, while F_TRIG has one (table 44).
+TEST(Plcopen, AFallingContactIsOffAtTheFirstScan) {
+  DiagramText d;
+  d.coil("q", {d.contact("a", {d.rail()}, "edge=\"falling\"")});
+  Loaded loaded(ladder(d));
+  std::string q;
+  for (const char c : std::string("00110")) {
+    loaded.set("a", std::string(1, c));
+    loaded.scan();
+    q += loaded.get("q") == "TRUE" ? '1' : '0';
+  }
+  EXPECT_EQ(q, "00001");
 }
 
 TEST(Plcopen, FunctionBlocksStandInARung) {

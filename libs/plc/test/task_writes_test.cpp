@@ -36,6 +36,12 @@ TEST(TaskWrites, AreNamedWithBothPlaces) {
           "one that runs last decides"));
 }
 
+TEST(TaskWrites, OfAWholeRegisterAreNamed) {
+  EXPECT_THAT(lines_of("PROGRAM fast\n%R5 := 1;\nEND_PROGRAM\nPROGRAM main\n%R5 := 2;\nEND_PROGRAM\n"),
+              ElementsAre("t.st:5:1: warning: the register %R5 is written by the tasks main and fast "
+                          "(t.st:2:1): the one that runs last decides"));
+}
+
 TEST(TaskWrites, AreFoundThroughNamesPartsAndBlocks) {
   const std::string expected = "is written by the tasks main and fast (t.st:";
   for (const auto& [fast, main] :

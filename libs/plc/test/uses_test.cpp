@@ -51,6 +51,16 @@ TEST(Uses, OfAVariableInABlockAreThoseInTheBlockAndThoseThatNameItsInstance) {
   EXPECT_EQ(described(uses.of("Changer.limit")), "m.st:4:12r") << "as the cross reference names it";
 }
 
+TEST(Uses, OfAnInputWithAnEdgeAreThoseInTheBody) {
+  const Uses uses(
+      compile({{"m.st",
+                "FUNCTION_BLOCK Press\nVAR_INPUT up : BOOL R_EDGE; END_VAR\nVAR_OUTPUT n : INT; END_VAR\n"
+                "IF up THEN n := n + 1; END_IF;\nEND_FUNCTION_BLOCK\n"
+                "PROGRAM main\nVAR p : Press; END_VAR\np(up := TRUE);\nEND_PROGRAM\n"}},
+              interface_registers()));
+  EXPECT_EQ(described(uses.of("Press.up")), "m.st:2:21r m.st:4:4r") << "the call of its R_TRIG is at R_EDGE";
+}
+
 TEST(Uses, OfAFieldLeaveOutTheOtherFields) {
   const Uses uses(compiled());
   EXPECT_EQ(described(uses.of("shared.a")), "m.st:12:1w m.st:15:38r");

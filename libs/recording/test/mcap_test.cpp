@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -35,9 +36,10 @@ std::vector<Message> some_messages(int count, unsigned seed) {
   return messages;
 }
 
-Bytes written(const std::vector<Message>& messages, std::size_t chunk_bytes) {
+Bytes written(const std::vector<Message>& messages, std::size_t chunk_bytes,
+              Compression compression = Compression::zstd) {
   MemorySink sink;
-  Writer writer(sink, {.library = "test", .chunk_bytes = chunk_bytes});
+  Writer writer(sink, {.library = "test", .chunk_bytes = chunk_bytes, .compression = compression});
   for (int c = 0; c < 3; ++c)
     writer.add_channel("topic " + std::to_string(c), c == 2 ? "B" : "A",
                        c == 2 ? "struct B {};" : "struct A {};", {{"qos", "frame"}});
@@ -78,6 +80,28 @@ TEST(Mcap, GivesBackEveryMessageInOrder) {
     EXPECT_EQ(result.ending, Ending::complete) << result.problem;
     EXPECT_EQ(result.messages, messages);
   }
+}
+
+// Five values a byte, in a hundred or so bytes a message: they do get smaller.
+TEST(Mcap, TellsTheCompressionOfItsChunksAndNeedsNone) {
+  const auto messages = some_messages(300, 1);
+  using Counts = std::map<std::string, std::uint64_t>;
+  const auto compressions = [&](const Bytes& file) {
+    EXPECT_EQ(read(file).messages, messages);
+    MemorySource source(file);
+    Reader reader(source);
+    MessageView view;
+    while (reader.next(view)) {
+    }
+    return reader.compressions();
+  };
+  const auto compressed = written(messages, 1 << 20), plain = written(messages, 1 << 20, Compression::none);
+  EXPECT_EQ(compressions(compressed), (Counts{{"zstd", 1}}));
+  EXPECT_EQ(compressions(plain), (Counts{{"none", 1}}));
+  EXPECT_LT(compressed.size(), plain.size());
+  // Its first message can be found in the file as it was written.
+  const auto& first = messages.front().data;
+  EXPECT_NE(std::search(plain.begin(), plain.end(), first.begin(), first.end()), plain.end());
 }
 
 TEST(Mcap, CarriesTypesTopicsAndMetadata) {

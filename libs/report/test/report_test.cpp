@@ -100,6 +100,31 @@ TEST_F(ReportOfARun, ThePlayOfAnAxisIsAContourErrorBehindItsEncoder) {
   EXPECT_EQ(r.actual_feed.cycles, r.commanded_feed.cycles);
 }
 
+// Tables of compensation add 59.6 um to Y on purpose. 3 um more of the encoder are an error.
+TEST_F(ReportOfARun, WhatCompensationAddsIsNoErrorOfTheAxes) {
+  run.compensation = [](std::uint64_t, std::array<double, 5>& axes) { axes[1] += 0.0596; };
+  const auto exact = report();
+  EXPECT_LT(exact.actual_feed.largest, 1e-9);
+  EXPECT_LT(exact.actual_rapid.largest, 1e-9);
+  EXPECT_NEAR(exact.residual_largest, 0.0596, 1e-9);
+  EXPECT_NE(terminal_text(exact).find("Compensation of the tip      max 59.600 um"), std::string::npos)
+      << terminal_text(exact);
+  run.encoder_error = [](std::uint64_t, std::array<double, 5>& axes) { axes[1] += 0.003; };
+  EXPECT_NEAR(report().actual_feed.largest, 0.003, 1e-9);
+}
+
+// 25 mm from R to the depth and 25 mm back, at 500 mm/min: 3 s each, which are 6000 cycles.
+TEST_F(ReportOfARun, TheStrokeOfATapIsProgrammedMotionAtFeed) {
+  run.program = "G54 G90 G61\nG0 X10 Y10 Z20\nS500\nG84 Z-20 R5 F500\nG80\nM30\n";
+  const auto r = report();
+  EXPECT_EQ(r.problem, "");
+  EXPECT_NEAR(r.programmed.feed_length, 50, 1e-9);
+  EXPECT_GT(r.commanded_feed.cycles, 6000u);
+  EXPECT_EQ(r.commanded_feed.line, 4u);
+  EXPECT_LT(r.commanded_feed.largest, 1e-9);
+  EXPECT_LT(r.commanded_rapid.largest, 1e-9);
+}
+
 TEST_F(ReportOfARun, OneBadCycleIsTheLargestAndIsNamed) {
   run.encoder_error = [](std::uint64_t n, std::array<double, 5>& axes) { axes[2] += n == 1500 ? 0.02 : 0; };
   const auto r = report();

@@ -11,6 +11,7 @@
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
 #include "motion/trajectory.hpp"
+#include "program_execution/tapping.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_writer.hpp"
 
@@ -59,6 +60,7 @@ std::vector<Row> rows_of(const std::string& program, const MachineTables& tables
       break;
     }
     using language::CommandKind;
+    if (command.kind == CommandKind::tap) command = program_execution::Tapping::line(command);
     if (command.kind == CommandKind::rapid || command.kind == CommandKind::line ||
         command.kind == CommandKind::arc) {
       while (!trajectory.can_accept()) step();
@@ -173,6 +175,7 @@ std::uint64_t record_run(const RunOptions& options) {
         std::copy_n(at.data(), 3, p.begin());
       }
       std::array<double, 5> command{p[0], p[1], p[2], p[3], p[5]};
+      if (options.compensation) options.compensation(cycle - first_cycle, command);
       joints.setpoints.insert(joints.setpoints.end(), command.begin(), command.end());
       feedback.commanded.insert(feedback.commanded.end(), command.begin(), command.end());
       if (options.encoder_error) options.encoder_error(cycle - first_cycle, command);

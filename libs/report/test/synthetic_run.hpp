@@ -20,6 +20,8 @@ struct RunOptions {
   std::string program;
   /// Changes the position the encoders show, mm and deg: axes X Y Z A C of cycle n after the start.
   std::function<void(std::uint64_t n, std::array<double, 5>& axes)> encoder_error;
+  /// Changes the setpoints of the axes as compensation does, mm and deg; the encoders follow.
+  std::function<void(std::uint64_t n, std::array<double, 5>& axes)> compensation;
   std::array<double, 5> play{};  ///< 10a910 of X Y Z A C, mm and deg
   int skipped_frame = -1;        ///< this gantry frame is left out of the recording
   int late_frames = 0;           ///< the recording begins so many path frames late

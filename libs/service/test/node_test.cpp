@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <limits>
 
 #include "bus/contract.hpp"
 #include "machine/alarm_constants.hpp"
@@ -96,6 +97,34 @@ TEST(Node, AnnouncesItsContractAndTheVersionOfTheProject) {
   EXPECT_EQ(announcement.instance, 3u);
   EXPECT_EQ(announcement.contract, bus::contract_of("drive"));
   EXPECT_EQ(announcement.version, version);
+}
+
+TEST(Node, TheAlarmOfARefusedMessageNamesTopicWriterAndField) {
+  Node node(options_of("drive"));
+  TestService service;
+  bus::NetworkSettings network{67};
+  network.identity = "stranger";
+  bus::Bus stranger(bus::Vendor::cyclonedds, network);
+  auto writer = stranger.writer(topics::gantry_frame);
+  auto reader = node.bus().reader(topics::gantry_frame);
+  auto alarms = node.bus().reader(topics::alarm);
+  idl::stream::AxisFrame frame;
+  frame.setpoints = {std::numeric_limits<double>::quiet_NaN()};
+  writer.write(frame);
+  idl::service::Alarm alarm;
+  service.on_pump = [&] {
+    while (reader.take(frame)) {
+    }
+    const bool told = alarms.take(alarm) && alarm.number == alarm::message_refused.number;
+    if (told || service.pumps > 4000) raise(SIGTERM);
+  };
+  EXPECT_EQ(node.run(service), 0);
+  EXPECT_EQ(alarm.text.find("drive refused 1 of " + std::string(topics::gantry_frame.name) +
+                            " from process " + std::to_string(getpid()) + " ("),
+            0u)
+      << alarm.text;
+  EXPECT_NE(alarm.text.find(", which says it is stranger, the newest: setpoints"), std::string::npos)
+      << alarm.text;
 }
 
 TEST(Node, RunsUntilItIsToldToEndAndPassesOnTheChannelOfAReset) {

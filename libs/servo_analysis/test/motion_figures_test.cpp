@@ -41,6 +41,16 @@ TEST(MotionFigures, FollowingErrorIsSpeedOverGainAsInTheManual) {
   }
 }
 
+TEST(MotionFigures, ALowGainIsMeasuredAtASpeedThatItsLimitBearsAndAfterItHasSettled) {
+  // Kv 5 at 1000 mm/min: 3.33 mm, beyond a limit of 2 mm. 1 mm is 5 mm/s, 0.3 of it.
+  EXPECT_NEAR(bearable_share(1000.0 / 60, 5, 2), 0.3, 1e-12);
+  EXPECT_EQ(bearable_share(1000.0 / 60, 60, 2), 1);  // 0.28 mm
+  EXPECT_EQ(bearable_share(1000.0 / 60, 5, 0), 1);
+  EXPECT_EQ(bearable_share(0, 5, 2), 1);
+  EXPECT_NEAR(settling_time(5), 1.2, 1e-12);
+  EXPECT_EQ(settling_time(100), 0.1);
+}
+
 TEST(MotionFigures, RippleIsTheAmplitudeOfAVibrationAndOvershootTheExcessAfterTheAcceleration) {
   const double v = 50, ripple = 10.0 / 60, overshoot = 40.0 / 60;  // mm/s: 10 and 40 mm/min at 3000 mm/min
   const auto t = second_at(

@@ -36,8 +36,8 @@ PathFrame stage_input(std::uint32_t epoch, std::uint64_t first, std::uint64_t re
 }
 
 /// A stage in the midst of a drive, a channel and parameters that the test plays.
-struct StageInACluster : testing::Test {
-  StageInACluster()
+struct StageBeforeTheDrive : testing::Test {
+  StageBeforeTheDrive()
       : node(options()),
         outside(bus::Vendor::cyclonedds, {stage_domain}),
         parameters(outside.writer(topics::parameter_set)),
@@ -50,7 +50,6 @@ struct StageInACluster : testing::Test {
     set.revision = 1;
     set.values = {{100000, 0, "X"}, {40001, 0, ""}};
     parameters.write(set);
-    EXPECT_TRUE(until([&] { return stage.health().in_step && stage.health().detail.empty(); }));
   }
   static service::Options options() {
     service::Options options;
@@ -91,6 +90,29 @@ struct StageInACluster : testing::Test {
   std::uint32_t drive_epoch = 3;
   StageService<PathFrame> stage;
 };
+
+struct StageInACluster : StageBeforeTheDrive {
+  StageInACluster() {
+    EXPECT_TRUE(until([&] { return stage.health().in_step && stage.health().detail.empty(); }));
+  }
+};
+
+// The drive is at cycle 100 of epoch 3, so the motion of cycles 40 .. 47 is over.
+TEST_F(StageBeforeTheDrive, LeavesOutAMotionOfItsHistoryWhoseParametersAreGone) {
+  EXPECT_TRUE(eventually([&] {
+    stage.pump();
+    return stage.health().detail == "waiting for the drive";
+  }));
+  input.write(stage_input(3, 40, 77));
+  EXPECT_TRUE(eventually([&] {
+    stage.pump();
+    return stage.health().frames_in == 1;
+  }));
+  EXPECT_TRUE(until([&] { return stage.health().in_step && stage.health().detail.empty(); }))
+      << stage.health().detail;
+  input.write(stage_input(4, 100, 1));
+  EXPECT_TRUE(until([&] { return is_computed(4); }));
+}
 
 TEST_F(StageInACluster, GoesOnAfterFramesThatAreNotWholeOrOfNoChannel) {
   auto hostile = stage_input(4, 100, 1);

@@ -115,6 +115,12 @@ TEST(ShownState, ByTheClockIsTakenOutAndNothingElse) {
   take_out_clock(document, gateway_instance);
   EXPECT_EQ(document, Json::parse(R"({"services": {"3": {"pid": 1}}, "alarms": {"3/110/0": {"text": "t"}},
       "axes": {"0": {"actual": 1.5}}, "revisions": {}})"));
+  // A process that was replaced is shown until its last heartbeat is too old.
+  const auto replaced =
+      R"({"cluster": {"title": "Mill", "domain": 3}, "run_times": {"0": {"ticks": 7}}, "services": {"3": {"expected": true}, "4": {"expected": false}}})";
+  document = Json::parse(replaced);
+  take_out_clock(document, gateway_instance);
+  EXPECT_EQ(document, Json::parse(R"({"cluster": {"domain": 3}, "services": {"3": {"expected": true}}})"));
   for (auto odd : {Json(), Json(3), Json::parse(R"({"services": 1, "alarms": [], "axes": {"0": 2}})")})
     EXPECT_NO_THROW(take_out_clock(odd, 1)) << "a document from outside is looked at before it is used";
 }

@@ -37,6 +37,32 @@ TEST(SuiteReport, JudgesByTheStatusAndTellsTheFirstDifference) {
   EXPECT_FALSE(judged(1, R"({"first": {"around": 7}, "missing": 1, "problem": 2})").problem.empty());
 }
 
+TEST(SuiteReport, AProblemDoesNotHideTheFirstDifference) {
+  const auto result = judged(1, R"({"problem": "the network was interrupted", "first": {"topic": "plc_state",
+    "series": "", "cycle": 12, "field": "inputs[1]", "around": []}})");
+  EXPECT_THAT(result.problem, HasSubstr("the network was interrupted; first difference: plc_state"));
+}
+
+constexpr const char* idle = R"({"equal": false, "skipped": "it had nothing to do"})";
+
+TEST(SuiteReport, WhatARecordingHasNothingForIsSkippedWithItsReasonAndIsNoFailure) {
+  const auto skipped = judged(1, idle);
+  EXPECT_FALSE(skipped.passed);
+  EXPECT_FALSE(skipped.failed());
+  EXPECT_EQ(skipped.problem, "it had nothing to do");
+  const auto passed = judged(0, R"({"equal": true})");
+  EXPECT_TRUE(is_passed({passed, skipped}));
+  EXPECT_FALSE(is_passed({skipped})) << "nothing was verified";
+  EXPECT_FALSE(is_passed({passed, skipped, judged(1, different)}));
+  const auto xml = junit_of("t", {passed, skipped});
+  EXPECT_THAT(xml, HasSubstr("tests=\"2\" failures=\"0\" skipped=\"1\">"));
+  EXPECT_THAT(xml, HasSubstr("<skipped message=\"it had nothing to do\"/>"));
+  const auto page = html_of("t", {passed, skipped});
+  EXPECT_THAT(page, HasSubstr("all as recorded</span>, 1 skipped"));
+  EXPECT_THAT(page, HasSubstr("skipped: it had nothing to do"));
+  EXPECT_THAT(html_of("t", {skipped}), HasSubstr("nothing is verified"));
+}
+
 TEST(SuiteReport, JunitCountsFailuresByRecordingAndEscapesTexts) {
   const auto xml = junit_of("A & B", {judged(0, R"({"equal": true})"), judged(1, different)});
   EXPECT_THAT(xml, HasSubstr("<testsuites name=\"A &amp; B\" tests=\"2\" failures=\"1\">"));

@@ -33,6 +33,9 @@ TEST(Summary, CountsTopicsCyclesAndGapsAndNamesTheContract) {
   EXPECT_TRUE(s.complete);
   EXPECT_TRUE(s.same_contract);
   EXPECT_EQ(s.metadata.at("machine"), "bench");
+  EXPECT_EQ(s.compressions, (std::map<std::string, std::uint64_t>{{"zstd", 1}})) << "a chunk has 1 MiB";
+  EXPECT_NE(text_of(s).find("chunks     1, compression zstd\n"), std::string::npos) << text_of(s);
+  EXPECT_EQ(json_of(s)["compressions"]["zstd"], 1);
   EXPECT_EQ(s.revisions, (std::set<std::uint64_t>{1}));
   EXPECT_EQ(s.participants, (std::set<std::string>{"drive fastdds 0.1.0 abc"}));
   ASSERT_EQ(s.streams.size(), 3u);
@@ -153,13 +156,14 @@ TEST(Csv, WritesALineForEachCycleThatReadsBackToTheSameBits) {
   std::istringstream in(out.str());
   std::string line;
   std::getline(in, line);
-  EXPECT_EQ(
-      line,
-      "cycle,channel,epoch,revision,starts,ends,line,setpoint.axis0,setpoint.axis1,state.KINEMATICS[0]");
+  EXPECT_EQ(line,
+            "cycle,channel,epoch,revision,starts,ends,line,setpoint.axis0,setpoint.axis1,state.KINEMATICS[0],"
+            "time_utc");
   std::getline(in, line);
-  EXPECT_EQ(line, "0,0,1,1,true,false,7,0,0.10000000000000001,") << "the state is told after the frame only";
+  EXPECT_EQ(line, "0,0,1,1,true,false,7,0,0.10000000000000001,,1970-01-01T00:00:00.000000022Z")
+      << "the state is told after the frame only; add_motion() writes the frame at 1 + 10 + 10 + 1 ns";
   for (int i = 1; i < 8; ++i) std::getline(in, line);
-  EXPECT_EQ(line, "7,0,1,1,false,false,7,7,7.0999999999999996,0");
+  EXPECT_EQ(line, "7,0,1,1,false,false,7,7,7.0999999999999996,0,1970-01-01T00:00:00.000000022Z");
   EXPECT_EQ(std::stod("7.0999999999999996"), 7 + 0.1);
 }
 
@@ -172,6 +176,43 @@ TEST(Csv, QuotesTextsAndLeavesEmptyWhatAMessageDoesNotHave) {
   EXPECT_EQ(write_csv(recording, *bus::find_topic("alarm"), out), 1u);
   EXPECT_NE(out.str().find(",\"a \"\"quoted\"\", text\","), std::string::npos) << out.str();
   EXPECT_NE(out.str().find("\n42,"), std::string::npos);
+  EXPECT_TRUE(out.str().ends_with(",1970-01-01T00:00:00.000000042Z\n")) << out.str();
+}
+
+std::vector<std::string> csv_lines(const StoredMessage& message) {
+  StoredRecording recording;
+  recording.messages = {message};
+  std::stringstream csv;
+  write_csv(recording, *message.topic, csv);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(csv, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Csv, HasTheAngleOfTheSpindlesInEachCycleAndTheirSpeedInTheLastOfABatch) {
+  auto feedback = feedback_frame(0, 2);
+  feedback.spindle_angle = {0.5, 0.75};
+  feedback.spindle_speed = {1000};
+  feedback.spindle_oriented = {1};
+  feedback.velocity = {1, 2};
+  feedback.torque = {0.5, 0.25};
+  const auto lines = csv_lines(stored(topics::feedback_frame, feedback, 7));
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0],
+            "cycle,channel,epoch,revision,commanded[0],commanded[1],actual[0],actual[1],spindle_angle[0],"
+            "spindle_speed[0],spindle_oriented[0],velocity[0],velocity[1],torque[0],torque[1],time_utc");
+  EXPECT_EQ(lines[1], "0,0,0,0,1,1,0.5,0.5,0.5,,,,,,,1970-01-01T00:00:00.000000007Z");
+  EXPECT_EQ(lines[2], "1,0,0,0,1,1,0.5,0.5,0.75,1000,1,1,2,0.5,0.25,1970-01-01T00:00:00.000000007Z");
+}
+
+TEST(Csv, HasTheSetpointOfACoupledSpindle) {
+  auto tapping = path_frame(0, true, false);
+  tapping.spindle_axis = 4;
+  tapping.spindle.assign(frame_cycles, 0.25);
+  const auto lines = csv_lines(stored(topics::path_frame, tapping, 7));
+  ASSERT_EQ(lines.size(), 1 + std::size_t{frame_cycles});
+  EXPECT_TRUE(lines[0].ends_with(",setpoint.W,spindle_axis,spindle,time_utc")) << lines[0];
+  EXPECT_TRUE(lines[1].ends_with(",4,0.25,1970-01-01T00:00:00.000000007Z")) << lines[1];
 }
 
 }  // namespace

@@ -482,5 +482,20 @@ TEST(RaisedAlarms, AreThoseOfTheServiceThatWereActive) {
   EXPECT_EQ(raised.begin()->first, (std::pair<std::uint32_t, std::uint32_t>(120, 3)));
 }
 
+// The sample has neither requests to the program service nor its replies.
+TEST(OrderedPlan, AServiceThatHadNothingToDoIsToldFromARecordingThatCannotBeUsed) {
+  auto recording = sample_recording(2);
+  EXPECT_THROW(plan_verification(recording, "program", 0), NothingToVerify);
+  recording.foreign = {"elsewhere/topic"};
+  try {
+    plan_verification(recording, "program", 0);
+    ADD_FAILURE() << "it is planned";
+  } catch (const NothingToVerify& error) {
+    ADD_FAILURE() << error.what();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("another contract"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace trunnion::verification

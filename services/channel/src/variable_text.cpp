@@ -10,7 +10,7 @@
 namespace trunnion::channel {
 namespace {
 
-constexpr std::uint32_t first_common = 50, first_kept = 500, first_user = 50000;
+constexpr std::uint32_t first_common = 50, first_kept = 500, first_skip = 5061, first_user = 50000;
 
 template <class Range>
 void write(std::string& out, const Range& values, std::uint32_t first) {
@@ -29,6 +29,8 @@ language::Value* find(language::VariableStore& variables, std::uint32_t number) 
     return &variables.common[number - first_common];
   if (number >= first_kept && number < first_kept + variables.kept.size())
     return &variables.kept[number - first_kept];
+  if (number >= first_skip && number < first_skip + variables.skip.size())
+    return &variables.skip[number - first_skip];
   if (number >= first_user && number < first_user + variables.user.size())
     return &variables.user[number - first_user];
   return nullptr;
@@ -40,6 +42,7 @@ std::string write_variables(const language::VariableStore& variables, const std:
   std::string out = "boot " + boot + "\n";
   write(out, variables.common, first_common);
   write(out, variables.kept, first_kept);
+  write(out, variables.skip, first_skip);
   write(out, variables.user, first_user);
   return out;
 }
@@ -73,7 +76,8 @@ void read_variables(const std::string& text, const std::string& file, const std:
     auto* const variable = good ? find(variables, number) : nullptr;
     if (variable == nullptr)
       throw std::runtime_error(file + ":" + std::to_string(line) +
-                               ": expected '#number: value' of #50..#199, #500..#999 or #50000..#54999");
+                               ": expected '#number: value' of #50..#199, #500..#999, #5061..#5069 or "
+                               "#50000..#54999");
     if (number >= first_kept || same_boot) *variable = language::Value::of(value);
   }
 }

@@ -22,6 +22,7 @@ TEST(VariableText, BringsVariablesBackBitForBitAndVacantOnesStayVacant) {
   before->kept[0] = Value::of(0.1);
   before->kept[499] = Value::of(-1.0 / 3);
   before->user[4999] = Value::of(std::numeric_limits<double>::denorm_min());
+  before->skip[8] = Value::of(-0.5);
   before->common[5] = Value::of(7);
   auto after = std::make_unique<language::VariableStore>();
   read_variables(write_variables(*before, "12 ab"), "f", "12 ab", *after);
@@ -29,6 +30,8 @@ TEST(VariableText, BringsVariablesBackBitForBitAndVacantOnesStayVacant) {
   EXPECT_EQ(after->kept[499].number, -1.0 / 3);
   EXPECT_EQ(after->user[4999].number, std::numeric_limits<double>::denorm_min());
   EXPECT_FALSE(after->kept[1].given);
+  EXPECT_EQ(after->skip[8].number, -0.5);
+  EXPECT_FALSE(after->skip[0].given);
   EXPECT_EQ(after->common[5].number, 7);
 }
 

@@ -88,6 +88,15 @@ TEST_F(Skip, TheWorkOffsetAndTheToolLengthAreOutOfTheLatchedPosition) {
   EXPECT_NEAR(kept(0), 30, 1e-9);
 }
 
+TEST_F(Skip, ThePositionOutlivesItsProgram) {
+  drive.switch_ = {1, 0, 20.25};
+  after("G90 G54\nG31 X30 F1200\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::SET_MODE, "", 0, 0, idl::channel::Mode::MDI).accepted);
+  ASSERT_TRUE(ask(CommandKind::MDI_LINE, "#500=#5061").accepted);
+  run();
+  EXPECT_NEAR(kept(0), 20.25, 1e-9);
+}
+
 TEST_F(Skip, TwoTouchesInOneProgramAreToldApart) {
   drive.switch_ = {1, 0, 20};
   after("G90 G54\nG31 X30 F1200\n#500=#5061\nG0 X10\nG31 X15\n#501=#5061\nG0 X0\nG31 X30\n#502=#5061\nM30\n");

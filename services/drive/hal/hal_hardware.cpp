@@ -80,7 +80,7 @@ void HalHardware::check_period() {
       char text[160];
       std::snprintf(
           text, sizeof text,
-          "HAL's servo thread has a period of about %.2f ms, parameter 000001 is %.2f ms: make them equal",
+          "HAL's servo thread has a period of about %.1f ms, parameter 000001 is %.2f ms: make them equal",
           found * 1000, period_ * 1000);
       throw std::runtime_error(text);
     }

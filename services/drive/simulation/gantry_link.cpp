@@ -2,9 +2,11 @@
 #include "gantry_link.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "machine/parameter_constants.hpp"
 #include "servo_test.hpp"
 
 namespace trunnion::drive {
@@ -26,7 +28,11 @@ std::vector<GantryLink> GantryLink::of(const machine::Parameters& p,
     const auto master = machine::DriveSynchronization::from(p, pair.master);
     const bool follows = own.on && own.slave && master.on && !master.slave;
     slave.torque_follow = follows && own.torque_follow;
-    slave.torque_sign = own.inverted ? -1 : 1;
+    // Motors that turn the opposite ways for the same travel need opposite torques.
+    const auto turns = [&](std::uint16_t axis) {
+      return std::copysign(1.0, p.get(parameter::travel_per_revolution, axis));
+    };
+    slave.torque_sign = (own.inverted ? -1 : 1) * turns(pair.slave) * turns(pair.master);
     if (follows && !own.torque_follow && own.compensates && master.compensates) slave.compensation = own.gain;
     slave.common_stop = own.common_stop && master.common_stop;
     if (beam && beam->racking_frequency > 0)

@@ -47,7 +47,8 @@ ServoParameters ServoParameters::from(const machine::Parameters& p, std::uint32_
   s.full_closed_loop = p.integer(parameter::full_closed_loop, axis) != 0;
   s.load_sign = p.integer(parameter::load_encoder_reversed, axis) != 0 ? -1 : 1;
   s.load_pulses = p.get(parameter::load_encoder_pulses, axis);
-  s.travel_per_revolution = p.get(parameter::travel_per_revolution, axis) / 1000;
+  // Pulses count as the scale does, whichever way the motor turns: load_sign alone says which.
+  s.travel_per_revolution = std::abs(p.get(parameter::travel_per_revolution, axis)) / 1000;
   s.dual_loop_time = p.get(parameter::dual_loop_time, axis) / 1000;
   s.encoder_difference_limit = p.get(parameter::encoder_difference_limit, axis);
   return s;

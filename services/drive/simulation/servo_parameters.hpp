@@ -40,7 +40,7 @@ struct ServoParameters {
   bool full_closed_loop = false;        ///< position loop over the load encoder
   double load_sign = 1;                 ///< of the load encoder
   double load_pulses = 0;               ///< of the load encoder per revolution of the motor; 0: no conversion
-  double travel_per_revolution = 10;    ///< mm or deg
+  double travel_per_revolution = 10;    ///< mm or deg, above 0
   double dual_loop_time = 0;            ///< s
   double encoder_difference_limit = 0;  ///< mm or deg, 0 = off
 

@@ -106,6 +106,19 @@ TEST(FullClosedLoop, PulsesPerRevolutionGiveTheTravel) {
   EXPECT_NEAR(difference(wrong), 2.5, 0.01) << "the axis moves by half";
 }
 
+TEST(FullClosedLoop, AMotorThatTurnsTheOtherWayDoesNotTurnTheScaleRound) {
+  FullClosed axis;
+  axis.truth.load->resolution = 1e-4;
+  axis.set(parameter::position_gain.number(0), 20);
+  axis.set(parameter::load_encoder_pulses.number(0), 100000);
+  axis.set(parameter::travel_per_revolution.number(0), -10000);
+  auto bench = axis.bench();
+  bench.by(5, 10, 4000);
+  bench.rest(0.5);
+  EXPECT_LT(difference(bench), 0.005);
+  EXPECT_LT(following_error(bench), 0.001);
+}
+
 // Largest error of the feedback in the last 0.2 s at constant speed: of a loop that vibrates it is large.
 double roughness(const FullClosed& axis) {
   auto bench = axis.bench();

@@ -125,10 +125,10 @@ TEST_F(Beam, InTorqueFollowBothSidesHaveTheSameTorqueAndNoneRacksTheOther) {
 }
 
 TEST_F(Beam, AMirroredSlaveInTorqueFollowNeedsTheInvertedTorque) {
-  const auto follows = [&](double word) {
+  const auto follows = [&](double word, double travel_per_revolution = 10000) {
     GantryMachine m;
     m.beam = beam_of(50);
-    m.axis(2, 127, 1);
+    m.axis(2, 127, 1), m.axis(2, 4, travel_per_revolution);
     m.axis(1, 942, 1), m.axis(2, 942, word);
     m.build();
     m.release();
@@ -159,6 +159,8 @@ TEST_F(Beam, AMirroredSlaveInTorqueFollowNeedsTheInvertedTorque) {
   };
   EXPECT_TRUE(follows(10111));
   EXPECT_FALSE(follows(111)) << "the sides push against each other";
+  EXPECT_TRUE(follows(111, -10000)) << "its motor turns the other way already";
+  EXPECT_FALSE(follows(10111, -10000));
 }
 
 // Y1 reports an alarm at 300 mm at 1 m/s.

@@ -169,6 +169,29 @@ TEST(ServoTest, ValuesOnTrialAreInForceUntilTheTestEnds) {
   EXPECT_NEAR(lag(), 10.0 / 60, 1e-4);
 }
 
+TEST(ServoTest, FeedForwardHidesALowPositionGainAndWithoutItSpeedOverErrorIsTheGain) {
+  const auto p = parameters_with({{parameter::position_gain.number(0), 5}});
+  SimulatedBench bench(p, {});
+  const auto figures = [&](double share) {
+    auto request = of_axis_0();
+    request.decimation = 2;
+    request.trial = {{parameter::velocity_feedforward.number(0), share, share},
+                     {parameter::acceleration_feedforward.number(0), share, share}};
+    bench.start(request);
+    // 300 mm/min for 1.8 s: 1.2 s settle the loop.
+    bench.by(9, 5, 4000);
+    bench.finish();
+    const auto f = servo_analysis::motion_figures(bench.traces()[0], servo_analysis::settling_time(5));
+    bench.rest(3);
+    return f;
+  };
+  // The manual's 0.2 mm at 1000 mm/min are 0.06 mm at 300 mm/min: a gain of 83 1/s, and this one is 5.
+  EXPECT_LT(std::abs(figures(1).following_error), 0.06);
+  const auto without = figures(0);
+  EXPECT_NEAR(without.velocity_gain, 5, 0.02);
+  EXPECT_NEAR(without.following_error, 1, 0.004);
+}
+
 TEST(ServoTest, AVibrationEndsTheTrialBelowItsLimit) {
   auto p = parameters_with({{parameter::full_closed_loop.number(0), 1}});
   auto truth = two_masses(60);

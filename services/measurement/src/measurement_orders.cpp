@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "calibration/chain_change.hpp"
+#include "calibration/ideal_touches.hpp"
 #include "calibration/journal.hpp"
 #include "calibration/measurement_file.hpp"
 #include "machine/alarm_constants.hpp"
@@ -101,7 +102,13 @@ std::string Measurement::prepare(const MeasurementRequest& request) {
     auto plan = calibration::plan_measurement(made->inputs, measured);
     if (auto* fault = std::get_if<std::string>(&plan)) return *fault;
     made->plan = std::get<calibration::MeasurementPlan>(std::move(plan));
-    if (!request.retract && made->inputs.mode != calibration::Mode::only_correct)
+    const bool moves = made->inputs.mode != calibration::Mode::only_correct;
+    if (moves) {
+      const auto corrections = calibration::named_corrections(made->active, request.channel);
+      auto fault = calibration::evaluation_fault(made->inputs, measured, made->plan, corrections);
+      if (!fault.empty()) return fault;
+    }
+    if (!request.retract && moves)
       made->ways = facts_.ways(made->inputs, measured, request.channel, made->active);
     plan_ = std::move(made);
   } catch (const std::exception& e) {

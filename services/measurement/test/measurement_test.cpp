@@ -82,15 +82,33 @@ TEST(MeasurementOfAHead, AdaptsItToTheReferenceThatTheInputsHave) {
   for (const auto& change : core.stored().result.changes) found[change.number] = change.after;
   for (std::uint32_t i = 0; i < 3; ++i)
     EXPECT_NEAR(found.at(parameter::chain_origin.number(0) + i), origin[i], 1e-5) << i;
-  // Measured under another work offset it is refused, and nothing is to be written.
+  // Measured under another work offset it is refused, and nothing moves.
   ASSERT_TRUE(machine.order(Operation::DISCARD).accepted);
-  ASSERT_TRUE(
-      machine
-          .measure(inputs + "reference_measurement: {sphere_mm: [60, 40, -360], zero_offset_mm: [1, 2, 4]}\n")
-          .accepted);
-  EXPECT_EQ(machine.run(), Phase::INTERRUPTED);
-  EXPECT_THAT(core.stored().state.error,
-              HasSubstr("is not the one of the reference, 1.0000 2.0000 4.0000 mm"));
+  const auto count = machine.requests.size();
+  const auto refused = machine.measure(
+      inputs + "reference_measurement: {sphere_mm: [60, 40, -360], zero_offset_mm: [1, 2, 4]}\n");
+  EXPECT_FALSE(refused.accepted);
+  EXPECT_THAT(refused.reason, HasSubstr("is not the one of the reference, 1.0000 2.0000 4.0000 mm"));
+  EXPECT_EQ(core.stored().state.phase, Phase::NOTHING);
+  EXPECT_EQ(machine.requests.size(), count);
+}
+
+// The touches of five poses last minutes; Y of the vector of A does not say where it is along A.
+TEST_F(MeasurementCore, RefusesBeforeTheFirstTouchWhatTheEvaluationWouldRefuse) {
+  const std::string axes =
+      "mode: correct\nsphere: {shaft: [0, 0, -1]}\naxes:\n"
+      "  A: {start_deg: -60, end_deg: 60, points: 3, other_deg: 0, normalization: ";
+  const std::string rest = "}\n  C: {start_deg: 0, end_deg: 240, points: 3, other_deg: 0}\n";
+  for (const auto& [mode, reason] :
+       {std::pair{"5", "the normalizations do not fix the free components"},
+        std::pair{"14", "normalization: the chain is open for all axes or for none"}}) {
+    const auto reply = machine.measure(axes + mode + rest);
+    EXPECT_FALSE(reply.accepted) << mode;
+    EXPECT_THAT(reply.reason, HasSubstr(reason));
+    EXPECT_EQ(state().phase, Phase::NOTHING);
+    EXPECT_TRUE(machine.requests.empty());
+  }
+  EXPECT_TRUE(machine.measure(axes + "4" + rest).accepted);
 }
 
 TEST_F(MeasurementCore, StopsWhenAnyRequestIsRefusedAndGoesOnAfterThat) {

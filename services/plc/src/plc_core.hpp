@@ -72,6 +72,8 @@ class PlcCore {
   /// The drive does not confirm the standstill that a request waits for: continue without.
   void give_up_waiting();
   bool waits_for_standstill() const;
+  /// The stream's cycles that the drive has executed are all below this; 0: none yet.
+  std::uint64_t executed() const { return view_.executed; }
 
   /// Keeps a value whatever the programs write: before and after each task of every scan. False when
   /// most_forces others are forced already.

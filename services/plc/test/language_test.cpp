@@ -214,6 +214,9 @@ TEST(Compiler, ErrorsSayFileLineColumnAndWhat) {
   EXPECT_THAT(error_of("LD X0.0 X0.1\n"), StartsWith("t.il:1:9: error: unexpected 'X0.1'"));
   EXPECT_THAT(error_of("LD 5\nST 6\n"), StartsWith("t.il:2:4: error: a constant cannot be written"));
   EXPECT_THAT(error_of("(* never\nends"), StartsWith("t.il:1:1: error: the comment is not closed"));
+  EXPECT_THAT(error_of("LD X0.0\n(* a (* b\n*) ends"),
+              StartsWith("t.il:2:1: error: the comment is not closed"));
+  EXPECT_THAT(error_of("(* a (* b\n*) *) LD X0.0 X0.1\n"), StartsWith("t.il:2:15: error: unexpected 'X0.1'"));
   EXPECT_THAT(error_of("VAR//"), StartsWith("t.il:1:1: error: VAR without END_VAR"));
   EXPECT_THAT(error_of("VAR\na AT"), StartsWith("t.il:2:5: error:"));
   EXPECT_THAT(error_of("LD"), StartsWith("t.il:1:3: error: expected an operand"));

@@ -64,7 +64,7 @@ class Machine {
     }
     idl::service::Alarm alarm;
     while (alarms_.take(alarm)) {
-      if (alarm.number == alarm::plc_program.number) alarm_text = alarm.text;
+      if (alarm.number == alarm::plc_program.number) alarm_text = alarm.text, alarm_cycle = alarm.cycle;
       if (alarm.number == alarm::plc_forced.number) forced_text = alarm.active ? alarm.text : "";
     }
   }
@@ -105,7 +105,8 @@ class Machine {
   idl::plc::AuxiliaryDone done;
   idl::service::ServiceState state;
   bool have_outputs = false;
-  std::string alarm_text;   // of the newest alarm of the program
+  std::string alarm_text;  // of the newest alarm of the program
+  std::uint64_t alarm_cycle = 0;
   std::string forced_text;  // of the alarm while anything is forced
   int done_count = 0;
 

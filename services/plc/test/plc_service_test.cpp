@@ -102,6 +102,10 @@ TEST(PlcServiceOverDds, ADivisionByZeroIsAnAlarmWithItsPlaceAndAResetStartsThePr
   ASSERT_TRUE(machine.press(PanelRequestKind::RESET_EMERGENCY_STOP));
   ASSERT_TRUE(machine.wait_for(
       [&] { return !machine.outputs.emergency_stop && machine.outputs.axis_enable.at(0) == 1; }));
+  // Once more, with the drive's feedback, which is at cycle 10 and tick 100: the alarm names the cycle.
+  ASSERT_TRUE(machine.wait_for([&] { return machine.outputs.tick == 100; }));
+  ASSERT_TRUE(machine.force(16, 0));
+  ASSERT_TRUE(machine.wait_for([&] { return machine.alarm_cycle == 10; })) << machine.alarm_cycle;
 }
 
 }  // namespace

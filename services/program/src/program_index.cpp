@@ -29,14 +29,17 @@ void TextScan::add(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return;
   size_ += bytes.size();
   crc_ = storage::crc32(crc_, bytes);
-  newlines_ += static_cast<std::uint32_t>(std::count(bytes.begin(), bytes.end(), std::uint8_t{'\n'}));
-  last_ = bytes.back();
+  for (const auto byte : bytes) {
+    // A CR and the LF behind it are one end.
+    if (byte == '\r' || (byte == '\n' && last_ != '\r')) ++ends_;
+    last_ = byte;
+  }
   for (std::size_t i = 0; i < bytes.size() && head_.size() < head_length; ++i) {
     const char c = static_cast<char>(bytes[i]);
     const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
     // A line that contains only % starts the tape: the number is in the next one.
     if (blank && (head_.empty() || head_ == "%")) {
-      if (c == '\n') head_.clear();
+      if (c == '\n' || c == '\r') head_.clear();
       continue;
     }
     head_ += c;

@@ -17,14 +17,14 @@ class TextScan {
   void add(std::span<const std::uint8_t> bytes);
   std::uint64_t size() const { return size_; }
   std::uint32_t crc32() const { return crc_; }
-  /// Lines, a last one without an end included.
-  std::uint32_t lines() const { return newlines_ + (size_ > 0 && last_ != '\n' ? 1 : 0); }
+  /// Lines, which end with CR LF, LF or CR; a last one without an end included.
+  std::uint32_t lines() const { return ends_ + (last_ != '\n' && last_ != '\r' ? 1 : 0); }
   /// The number after % or O at the head of the first line that is not empty.
   std::optional<std::uint32_t> number() const;
 
  private:
   std::uint64_t size_ = 0;
-  std::uint32_t crc_ = 0, newlines_ = 0;
+  std::uint32_t crc_ = 0, ends_ = 0;
   std::uint8_t last_ = '\n';
   std::string head_;  ///< first bytes without leading blanks
 };

@@ -99,6 +99,17 @@ TEST(TextScan, CountsLinesWithAndWithoutALastEnd) {
   EXPECT_EQ(lines("a"), 1u);
   EXPECT_EQ(lines("a\n"), 1u);
   EXPECT_EQ(lines("a\n\nb"), 3u);
+  EXPECT_EQ(lines("a\r\n\r\nb\r\n"), 3u);
+  EXPECT_EQ(lines("%\rO100\r\rM30\r"), 4u);
+  EXPECT_EQ(lines("a\rb"), 2u);
+}
+
+TEST(TextScan, FindsTheNumberInTheFirstLineBehindTheTapesBeginning) {
+  for (const std::string_view text : {"%\nO100\n", "%\r\nO100\r\n", "%\rO100\r", "\r\r%\r\rO100 G0\r"}) {
+    TextScan scan;
+    scan.add(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+    EXPECT_EQ(scan.number(), 100u) << text;
+  }
 }
 
 TEST(ProgramStore, AnUploadBecomesAProgramWithRevisionSizeChecksumAndLines) {

@@ -10,7 +10,7 @@ namespace trunnion::recorder {
 
 RecordingFile::RecordingFile(const std::string& path, const FileHeader& header,
                              const recording::StringMap& more)
-    : path_(path), sink_(path), writer_(sink_) {
+    : path_(path), sink_(path), writer_(sink_, {.compression = header.compression}) {
   auto metadata = header.metadata;
   metadata.insert(more.begin(), more.end());
   writer_.metadata("trunnion", metadata);

@@ -17,6 +17,7 @@ namespace trunnion::recorder {
 struct FileHeader {
   std::vector<const bus::TopicEntry*> topics;  ///< by the number that messages name
   recording::StringMap metadata;
+  recording::Compression compression = recording::Compression::zstd;
 };
 
 class RecordingFile {

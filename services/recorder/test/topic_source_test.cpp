@@ -32,6 +32,7 @@ class Side : public bus::Backend {
     return std::make_unique<Reader>(*this);
   }
   bool discover(std::vector<DiscoveredWriter>&) override { return false; }
+  bus::WriterOrigin origin_of(const bus::WriterId&) override { return {}; }
 
   int readers = 0;
   bus::EndpointQos asked_for;

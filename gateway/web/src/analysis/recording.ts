@@ -79,7 +79,7 @@ export class BadCsv extends Error {
 }
 
 /** Columns that say nothing about motion, and would fill the memory. */
-const left = /^(snapshot\.|states|channel$|epoch$|revision$|starts$|ends$|seconds$|tick$)/;
+const left = /^(snapshot\.|states|channel$|epoch$|revision$|starts$|ends$|seconds$|tick$|time_utc$)/;
 export const mostColumns = 64;
 
 /**

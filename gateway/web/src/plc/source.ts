@@ -12,10 +12,33 @@ export interface SourceLine {
 }
 
 const nameOf = /%[A-Za-z]+\d+(?:\.\d+)?|[A-Za-z_]\w*(?:\[[\w, ]*\])?(?:\.[A-Za-z_]\w*(?:\[[\w, ]*\])?)*/g;
-const comment = /\(\*[\s\S]*?\*\)|\/\*[\s\S]*?\*\/|\/\/[^\n]*|'(?:\$.|[^'\n])*'/g;
+
+/** Behind the comment that begins at `start`; comments of one kind nest. */
+function commentEnd(source: string, start: number): number {
+  const marks = source[start] === "(" ? /\(\*|\*\)/g : /\/\*|\*\//g;
+  marks.lastIndex = start;
+  let depth = 0;
+  for (let mark = marks.exec(source); mark; mark = marks.exec(source)) {
+    depth += mark[0].startsWith("*") ? -1 : 1;
+    if (depth === 0) return marks.lastIndex;
+  }
+  return source.length;
+}
 
 /** Comments and strings become blanks of the same length, so that lines stay lines. */
-const blanked = (source: string) => source.replace(comment, (text) => text.replace(/[^\n]/g, " "));
+function blanked(source: string): string {
+  const begin = /\(\*|\/\*|\/\/[^\n]*|'(?:\$.|[^'\n])*'|"(?:\$.|[^"\n])*"/g;
+  let result = "";
+  let done = 0;
+  for (let found = begin.exec(source); found; found = begin.exec(source)) {
+    const nests = found[0] === "(*" || found[0] === "/*";
+    const end = nests ? commentEnd(source, found.index) : begin.lastIndex;
+    result += source.slice(done, found.index) + source.slice(found.index, end).replace(/[^\n]/g, " ");
+    done = end;
+    begin.lastIndex = end;
+  }
+  return result + source.slice(done);
+}
 
 const isXml = (source: string) => /^\s*(?:\uFEFF)?<\?xml|^\s*<(?:\w+:)?project\b/.test(source);
 

@@ -7,7 +7,7 @@ import { tagHighlighter, tags } from "@lezer/highlight";
 const words = (text: string) => new Set(text.split(/\s+/));
 
 const keywords = words(`PROGRAM END_PROGRAM FUNCTION END_FUNCTION FUNCTION_BLOCK END_FUNCTION_BLOCK TEST END_TEST TYPE END_TYPE
-  CONFIGURATION END_CONFIGURATION RESOURCE END_RESOURCE TASK WITH STRUCT END_STRUCT VAR VAR_INPUT VAR_OUTPUT VAR_IN_OUT VAR_TEMP VAR_GLOBAL VAR_EXTERNAL END_VAR RETAIN CONSTANT AT
+  CONFIGURATION END_CONFIGURATION RESOURCE END_RESOURCE TASK WITH STRUCT END_STRUCT VAR VAR_INPUT VAR_OUTPUT VAR_IN_OUT VAR_TEMP VAR_GLOBAL VAR_EXTERNAL END_VAR RETAIN CONSTANT R_EDGE F_EDGE AT
   IF THEN ELSIF ELSE END_IF CASE OF END_CASE FOR TO BY DO END_FOR WHILE END_WHILE REPEAT UNTIL END_REPEAT EXIT CONTINUE RETURN
   AND OR XOR NOT MOD ARRAY TRUE FALSE`);
 /** Instructions of a list, where a line begins with one. */
@@ -15,19 +15,21 @@ const instructions = words(`LD LDN ST STN S R AND ANDN OR ORN XOR XORN NOT ADD S
   R_TRIG F_TRIG MOVE JMP JMPC JMPCN RET RETC RETCN CAL CALC CALCN`);
 const types = words(`BOOL SINT INT DINT LINT USINT UINT UDINT ULINT REAL LREAL BYTE WORD DWORD LWORD TIME LTIME DATE TIME_OF_DAY TOD
   DATE_AND_TIME DT STRING WSTRING`);
-const blocks = words("SR RS R_TRIG F_TRIG CTU CTD CTUD TP TON TOF RTC PID PID_CONTROL SFC_STEP");
+const blocks = words("SR RS R_TRIG F_TRIG FALLING_EDGE CTU CTD CTUD TP TON TOF RTC PID PID_CONTROL SFC_STEP");
 
 export interface State {
-  /** What ends the comment that is open; empty outside. */
-  comment: "" | "*)" | "*/";
+  /** What ends the comments that are open, the same for all of them as comments of one kind nest; empty outside. */
+  comment: string;
 }
 
 /** The kind of the next piece of a line; null for what has no colour. */
-export function token(stream: Pick<StringStream, "match" | "skipTo" | "skipToEnd" | "next" | "eatSpace" | "string" | "pos">, state: State, list: boolean): string | null {
+export function token(stream: Pick<StringStream, "match" | "skipToEnd" | "next" | "eatSpace" | "string" | "pos">, state: State, list: boolean): string | null {
   if (state.comment) {
-    if (stream.skipTo(state.comment)) {
-      stream.match(state.comment);
-      state.comment = "";
+    const end = state.comment.slice(0, 2);
+    const mark = (end === "*)" ? /\(\*|\*\)/ : /\/\*|\*\//).exec(stream.string.slice(stream.pos));
+    if (mark) {
+      stream.pos += mark.index + 2;
+      state.comment = mark[0] === end ? state.comment.slice(2) : state.comment + end;
     } else {
       stream.skipToEnd();
     }

@@ -12,6 +12,7 @@ import {
 } from "@codemirror/view";
 import type { ProgramError } from "../contract";
 import { explainedAt, tokens } from "./g_code";
+import { lineBreak } from "./lines";
 
 const marks = new Map<string, Decoration>();
 function markOf(kind: string): Decoration {
@@ -80,7 +81,7 @@ export class ProgramEditor {
       lineNumbers(), history(), drawSelection(), highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(),
       lintGutter(), language, search({ top: true }), keymap.of([...searchKeymap, ...historyKeymap, ...defaultKeymap]),
       EditorState.phrases.of(phrases), EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false", tabindex: "0", "data-test": "program-text" }),
-      this.comparison.of([]), EditorState.lineSeparator.of(/\r\n/.test(text) && !/(^|[^\r])\n/.test(text) ? "\r\n" : "\n"),
+      this.comparison.of([]), EditorState.lineSeparator.of(lineBreak(text)),
       EditorView.updateListener.of((update) => {
         if (update.docChanged) events.changed();
         const line = update.state.doc.lineAt(update.state.selection.main.head).number;

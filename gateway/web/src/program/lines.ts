@@ -1,34 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program as bytes with the start of every line: a million lines stay one buffer, and only what is seen is decoded.
 
+const lineFeed = 10, carriage = 13;
+
+/** Where the line that begins at `from` ends and the next begins: LF, CR LF or CR ends it, or the text. */
+function lineEnd(bytes: Uint8Array, from: number): [end: number, next: number] {
+  for (let at = from; at < bytes.length; ++at) {
+    if (bytes[at] === lineFeed) return [at, at + 1];
+    if (bytes[at] === carriage) return [at, bytes[at + 1] === lineFeed ? at + 2 : at + 1];
+  }
+  return [bytes.length, bytes.length];
+}
+
+/** What ends the lines of a text; LF when they end in several ways. */
+export function lineBreak(text: string): string {
+  if (!text.includes("\n")) return text.includes("\r") ? "\r" : "\n";
+  return /(^|[^\r])\n/.test(text) ? "\n" : "\r\n";
+}
+
 export class ProgramText {
   private readonly starts: Uint32Array;
   readonly count: number;
   private readonly decoder = new TextDecoder();
 
   constructor(private readonly bytes: Uint8Array) {
-    let lines = 1;
-    for (let at = bytes.indexOf(10); at >= 0; at = bytes.indexOf(10, at + 1)) ++lines;
-    if (bytes.length > 0 && bytes[bytes.length - 1] === 10) --lines;
-    if (bytes.length === 0) lines = 0;
+    let lines = 0;
+    for (let at = 0; at < bytes.length; at = lineEnd(bytes, at)[1]) ++lines;
     this.count = lines;
-    this.starts = new Uint32Array(lines + 1);
-    let start = 0;
-    for (let line = 0; line < lines; ++line) {
-      this.starts[line] = start;
-      const end = bytes.indexOf(10, start);
-      start = end < 0 ? bytes.length + 1 : end + 1;
-    }
-    this.starts[lines] = start;
+    this.starts = new Uint32Array(lines);
+    for (let line = 0, at = 0; line < lines; ++line, at = lineEnd(bytes, at)[1]) this.starts[line] = at;
   }
 
   /** The line numbered from 1, without its line end; empty beyond the program. */
   line(number: number): string {
     if (number < 1 || number > this.count) return "";
     const start = this.starts[number - 1]!;
-    let end = this.starts[number]! - 1;
-    if (end > start && this.bytes[end - 1] === 13) --end;
-    return this.decoder.decode(this.bytes.subarray(start, end));
+    return this.decoder.decode(this.bytes.subarray(start, lineEnd(this.bytes, start)[0]));
   }
 }
 

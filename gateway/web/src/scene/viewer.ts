@@ -14,6 +14,7 @@ import { DrawnBodies, isDrawn } from "./bodies";
 import type { Angles, Vector } from "./chain";
 import { type MachineData, toolLength } from "./machine_data";
 import { PathBuffer } from "./path";
+import type { Standpoint } from "./standpoint";
 
 export type FixedView = "front" | "right" | "top" | "space";
 export type Layer = "machine" | "travel" | "programmed" | "path";
@@ -24,6 +25,7 @@ const mostWhileTurning = 12_000;
 const directionOf: Record<FixedView, Vector> = { front: [0, -1, 0], right: [1, 0, 0], top: [0, -1e-4, 1], space: [0.8, -1, 0.75] };
 const up = new Vector3(0, 1, 0);
 const vector = (v: Vector) => new Vector3(...v);
+const components = ({ x, y, z }: Vector3): Vector => [x, y, z];
 
 /** Of each letter A B C U V W, in degrees. */
 function anglesOf(channel: Channel): Angles {
@@ -74,6 +76,10 @@ export class Viewer {
   private asked = 0;
   private size = 100;
   private following = false;
+  /** What fills the picture; undefined when the operator has moved it. */
+  private fitted: { whole: boolean } | undefined;
+  /** Called when the operator has turned, moved or zoomed the picture. */
+  onMoved: () => void = () => undefined;
   private latest: { channel: Channel; history: History } | undefined;
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly data: MachineData) {
@@ -136,8 +142,16 @@ export class Viewer {
     this.controls.zoomToCursor = true;
     this.controls.listenToKeyEvents(canvas);
     this.camera.up.set(0, 0, 1);
-    this.controls.addEventListener("start", () => this.turn(true));
-    this.controls.addEventListener("end", () => this.turn(false));
+    let before = "";
+    this.controls.addEventListener("start", () => {
+      before = JSON.stringify(this.standpoint);
+      this.turn(true);
+    });
+    this.controls.addEventListener("end", () => {
+      this.turn(false);
+      // A click, after which the arrow keys move the picture, has not moved it yet.
+      if (JSON.stringify(this.standpoint) !== before) this.moved();
+    });
     this.controls.addEventListener("change", () => {
       if (this.camera.zoom > 1.4 * this.simplifiedFor || this.camera.zoom < this.simplifiedFor / 2) this.simplify();
       this.ask();
@@ -217,21 +231,39 @@ export class Viewer {
     this.fit();
   }
 
-  /** The executed path fills the picture, before it the programmed one; with `whole`, and without a path, the machine. */
+  get standpoint(): Standpoint {
+    return { position: components(this.camera.position), target: components(this.controls.target), zoom: this.camera.zoom };
+  }
+
+  stand({ position, target, zoom }: Standpoint): void {
+    this.fitted = undefined;
+    this.camera.position.fromArray(position);
+    this.controls.target.fromArray(target);
+    this.camera.lookAt(this.controls.target);
+    this.camera.zoom = zoom;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.simplify();
+    this.ask();
+  }
+
+  /** The operator has turned, moved or zoomed the picture. */
+  moved(): void {
+    this.fitted = undefined;
+    this.onMoved();
+  }
+
+  /** What fills the picture has changed, or the size of the picture. */
+  refit(): void {
+    if (this.fitted) this.fit(this.fitted.whole);
+  }
+
+  /** The executed path fills the picture, before it the programmed one; with `whole`, and without a path, the machine with both. */
   fit(whole = false): void {
+    this.fitted = { whole };
     this.scene.updateMatrixWorld();
-    const box = new Box3();
-    const programmed = this.programmed.geometry.getAttribute("position");
-    if (!whole && this.path.segments === 0 && programmed?.count > 1) {
-      box.setFromBufferAttribute(programmed as BufferAttribute).applyMatrix4(this.workpiece.matrixWorld).expandByScalar(this.size / 20);
-    } else if (!whole && this.path.segments > 0) {
-      const { points, count } = this.path;
-      const point = new Vector3();
-      for (let i = 0; i < count; ++i) box.expandByPoint(point.fromArray(points, 3 * i).applyMatrix4(this.workpiece.matrixWorld));
-      box.expandByScalar(this.size / 20);
-    } else {
-      box.setFromObject(this.bodies?.group ?? this.travel);
-    }
+    const box = this.pathBox(whole);
+    if (whole || box.isEmpty()) box.union(this.machineBox());
     const centre = box.getCenter(new Vector3());
     this.camera.position.add(centre.clone().sub(this.controls.target));
     this.controls.target.copy(centre);
@@ -246,6 +278,25 @@ export class Viewer {
     this.controls.update();
     this.simplify();
     this.ask();
+  }
+
+  /** Of the executed path, before it of the programmed one, or of both; empty without any. */
+  private pathBox(both: boolean): Box3 {
+    const box = new Box3();
+    const { points, count, segments } = this.path;
+    const point = new Vector3();
+    if (segments > 0) for (let i = 0; i < count; ++i) box.expandByPoint(point.fromArray(points, 3 * i).applyMatrix4(this.workpiece.matrixWorld));
+    const programmed = this.programmed.geometry.getAttribute("position");
+    if ((both || box.isEmpty()) && programmed?.count > 1)
+      box.union(new Box3().setFromBufferAttribute(programmed as BufferAttribute).applyMatrix4(this.workpiece.matrixWorld));
+    return box.isEmpty() ? box : box.expandByScalar(this.size / 20);
+  }
+
+  /** Of the machine and the workpiece zero. */
+  private machineBox(): Box3 {
+    const box = new Box3().setFromObject(this.bodies?.group ?? this.machine);
+    if (!this.bodies) box.expandByObject(this.travel);
+    return box.expandByPoint(this.zero.getWorldPosition(new Vector3()));
   }
 
   dispose(): void {
@@ -382,7 +433,8 @@ export class Viewer {
     this.camera.top = height / 2;
     this.camera.bottom = -height / 2;
     this.camera.updateProjectionMatrix();
-    this.fit();
+    this.refit();
+    this.ask();
   }
 
   private readonly ask = (): void => {
@@ -390,6 +442,8 @@ export class Viewer {
     this.asked = requestAnimationFrame(() => {
       this.asked = 0;
       this.renderer.render(this.scene, this.camera);
+      const { position, target, zoom } = this.standpoint;
+      this.canvas.dataset.standpoint = [...position, ...target, zoom].join();
       this.canvas.dataset.frames = String(Number(this.canvas.dataset.frames ?? 0) + 1);
     });
   };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why an alarm usually comes and what the operator does, from the catalogue of alarms.
+// What an alarm says in the operator's language, why it usually comes and what the operator does, from the catalogue of
+// alarms.
 import { alarmCatalogue } from "../alarm_catalogue";
+import { alarmText } from "../plc/messages";
 import type { Texts } from "../text/texts";
 import type { Alarm } from "./model";
 
@@ -14,4 +16,21 @@ export interface Explanation {
 export function explanation(alarm: Pick<Alarm, "number">, text: Texts): Explanation | undefined {
   if (alarm.number >= 1000 && alarm.number < 2000) return { cause: "", remedy: text.languageRemedy };
   return alarmCatalogue[alarm.number]?.[text.languageCode];
+}
+
+export interface Wording {
+  text: string;
+  /** What the service says besides it, with names and numbers, in English; empty when that is no more. */
+  detail: string;
+}
+
+/** Messages of the machine's PLC and of a program: whoever wrote them chose the language. */
+const messages: readonly number[] = [136, 137, 138, 151];
+
+export function wording(alarm: Pick<Alarm, "number" | "part" | "text"> & { since?: string }, text: Texts): Wording {
+  const own = alarmText(alarm);
+  const one = alarmCatalogue[alarm.number];
+  const translated = text.languageCode === "en" ? undefined : one?.[text.languageCode]?.text;
+  if (!translated || messages.includes(alarm.number)) return { text: own, detail: "" };
+  return { text: translated, detail: own === one?.en?.text ? "" : own };
 }

@@ -2,7 +2,7 @@
 // The stored programs: their list, and what is done with them.
 import { signal } from "@preact/signals";
 import { get, type ProgramEntry, remove, upload } from "../api";
-import { bytes } from "../format";
+import { bytes, refusal } from "../format";
 import { text } from "../text/texts";
 import { ask } from "../views/Question";
 import { tell } from "./store";
@@ -18,7 +18,7 @@ async function store(file: File): Promise<void> {
   const t = text.peek();
   tell(t.uploading(file.name, bytes(file.size)), false);
   const answer = await upload(file.name, file);
-  tell(answer.ok ? t.stored(file.name) : `${t.uploadOf(file.name)}: ${answer.reason}`, !answer.ok);
+  tell(answer.ok ? t.stored(file.name) : refusal(t.uploadOf(file.name), answer.reason), !answer.ok);
   await refreshPrograms();
 }
 
@@ -37,7 +37,7 @@ export function removeProgram(name: string, removed: () => void = () => undefine
   ask(t.deleteQuestion(name), t.deleteKey, () => {
     void remove(`/api/programs/${encodeURIComponent(name)}`).then(async (answer) => {
       if (answer.ok) removed();
-      else tell(`${t.deleteProgram(name)}: ${answer.reason}`, true);
+      else tell(refusal(t.deleteProgram(name), answer.reason), true);
       await refreshPrograms();
     });
   });

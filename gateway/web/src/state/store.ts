@@ -3,10 +3,10 @@
 import { computed, signal } from "@preact/signals";
 import { type Answer, answerOf, type OrderAnswer, post, waitUntilShown } from "../api";
 import type { ChannelCommands } from "../contract";
+import { refusal } from "../format";
 import { text } from "../text/texts";
 import { History } from "./history";
 import { channelNumbers, emptyStream, type Message, receive, type Stream } from "./model";
-import { RunTime } from "./run_time";
 import { Shown } from "./shown";
 
 const stream = signal<Stream>(emptyStream);
@@ -41,13 +41,6 @@ export function history(number: number): History {
   return fresh;
 }
 
-const runTimes = new Map<number, RunTime>();
-export function runTime(number: number): RunTime {
-  const known = runTimes.get(number) ?? new RunTime();
-  runTimes.set(number, known);
-  return known;
-}
-
 /** The channel's name, or its number in words. */
 export function channelName(one: { channel: number; name: string }): string {
   return one.name || text.value.channelNumber(one.channel);
@@ -70,13 +63,18 @@ export function tell(text: string, refused: boolean): void {
   noticeTimer = setTimeout(() => (notice.value = null), refused ? 12000 : 4000);
 }
 
+// What was told is about the view in which it was done.
+view.subscribe(() => {
+  notice.value = null;
+});
+
 /** Sends a request and shows the refusal, if there is one; true when accepted. */
 export async function request(what: string, path: string, body: object = {}): Promise<boolean> {
   const answer = await post(path, body);
   if (answer.ok) {
     if (notice.value?.refused) notice.value = null;
   } else {
-    tell(`${what}: ${answer.reason}`, true);
+    tell(refusal(what, answer.reason), true);
   }
   return answer.ok;
 }
@@ -106,7 +104,7 @@ function byStream(path: string, body: object): Promise<Answer | undefined> {
 /** A request that stops something: by the stream, and over HTTP when that does not answer. */
 export async function stop(what: string, path: string, body: object = {}): Promise<boolean> {
   const answer = (await byStream(path, body)) ?? (await post(path, body));
-  if (answer.reason) tell(`${what}: ${answer.reason}`, true);
+  if (answer.reason) tell(refusal(what, answer.reason), true);
   return answer.ok;
 }
 
@@ -178,7 +176,6 @@ export function connect(): void {
     connection.value = "live";
     const now = performance.now() / 1000;
     for (const one of Object.values(next.state.channels)) {
-      if (next.state.drive) runTime(one.channel).observe(one, next.state.drive.tick);
       if ("state" in message) history(one.channel).interrupt();
       history(one.channel).record(now, next.state, one);
     }

@@ -57,7 +57,7 @@ export const chinese: Texts = {
   lineOf: (line, total) => `第 ${line} 行 / 共 ${total} 行`,
   elapsed: "运行时间",
   elapsedAbout: "程序启动以来的机床时间，包括保持",
-  elapsedPartAbout: "打开本页面以来的程序机床时间：程序在此之前已启动",
+  elapsedPartAbout: "网关启动以来的程序机床时间：程序在此之前已启动",
   remaining: "剩余时间",
   remainingAbout: "按规划计算的程序剩余时间，不含 M、S、T 和换刀",
   planned: "规划时间",

@@ -55,6 +55,7 @@ export const chineseAnalysis: Pick<Texts, keyof typeof englishAnalysis> = {
   noPath: "记录中没有两个直线轴的位置。",
   colourBy: "着色依据",
   colourOf: "着色的轴",
+  colourOfTip: "刀尖",
   pathSpeed: "速度",
   pathAcceleration: "加速度",
   pathJerk: "加加速度",

@@ -58,7 +58,7 @@ export const english = {
   lineOf: (line: number, total: number) => `line ${line} of ${total}`,
   elapsed: "Running time",
   elapsedAbout: "Machine time of the program since its start, holds included",
-  elapsedPartAbout: "Machine time of the program since this page was opened: its start was before",
+  elapsedPartAbout: "Machine time of the program since the gateway runs: its start was before",
   remaining: "Remaining",
   remainingAbout: "Time of the program that is left, as planned: without M, S, T and tool changes",
   planned: "Planned time",

@@ -53,6 +53,7 @@ export const englishAnalysis = {
   noPath: "The recording has no positions of two linear axes.",
   colourBy: "Colour by",
   colourOf: "Axes of the colour",
+  colourOfTip: "tool tip",
   pathSpeed: "Speed",
   pathAcceleration: "Acceleration",
   pathJerk: "Jerk",

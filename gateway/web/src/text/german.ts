@@ -57,7 +57,7 @@ export const german: Texts = {
   lineOf: (line, total) => `Zeile ${line} von ${total}`,
   elapsed: "Laufzeit",
   elapsedAbout: "Maschinenzeit des Programms seit dem Start, mit Halten",
-  elapsedPartAbout: "Maschinenzeit des Programms, seit diese Seite offen ist: der Start war davor",
+  elapsedPartAbout: "Maschinenzeit des Programms, seit das Gateway läuft: der Start war davor",
   remaining: "Restzeit",
   remainingAbout: "Restliche Zeit des Programms nach Plan: ohne M, S, T und Werkzeugwechsel",
   planned: "Geplante Zeit",

@@ -55,6 +55,7 @@ export const germanAnalysis: Pick<Texts, keyof typeof englishAnalysis> = {
   noPath: "Die Aufzeichnung hat keine Positionen von zwei Linearachsen.",
   colourBy: "Farbe nach",
   colourOf: "Achsen der Farbe",
+  colourOfTip: "Werkzeugspitze",
   pathSpeed: "Geschwindigkeit",
   pathAcceleration: "Beschleunigung",
   pathJerk: "Ruck",

@@ -5,9 +5,9 @@ import { useEffect } from "preact/hooks";
 import { get } from "../api";
 import type { PastAlarm } from "../contract";
 import { dateAndTime, duration } from "../format";
-import { alarmText } from "../plc/messages";
 import { machine } from "../state/store";
 import { text } from "../text/texts";
+import { AlarmWords } from "./AlarmWords";
 
 const search = signal("");
 const shown = 100;
@@ -53,7 +53,7 @@ export function AlarmHistory() {
             return (
               <li key={`${alarm.raised}/${alarm.instance}/${alarm.number}/${alarm.part}`} class={alarm.severity.toLowerCase()}>
                 <b class="digits">{alarm.number}</b>
-                <span>{alarmText(alarm)}</span>
+                <span><AlarmWords alarm={alarm} /></span>
                 <span class="dim digits">
                   {dateAndTime(alarm.raised)} · {lasted === undefined ? t.stillActive : t.lasted(duration(lasted))} · {alarm.source}
                   {alarm.occurrences > 1 && ` · ${t.times(alarm.occurrences)}`}

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useSignal } from "@preact/signals";
 import { timeOfDay } from "../format";
-import { alarmText } from "../plc/messages";
 import { explanation } from "../state/alarms";
 import { sortedAlarms } from "../state/model";
 import { machine, request } from "../state/store";
 import { text } from "../text/texts";
 import { AlarmHistory } from "./AlarmHistory";
+import { AlarmWords } from "./AlarmWords";
 
 export function AlarmList() {
   const t = text.value;
@@ -26,7 +26,7 @@ export function AlarmList() {
           return (
             <li key={`${alarm.instance}/${alarm.number}/${alarm.part}`} class={alarm.severity.toLowerCase()}>
               <b class="digits">{alarm.number}</b>
-              <span>{alarmText(alarm)}</span>
+              <span><AlarmWords alarm={alarm} /></span>
               {why && (
                 <dl>
                   {why.cause && <><dt>{t.cause}</dt><dd>{why.cause}</dd></>}

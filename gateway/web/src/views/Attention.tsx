@@ -2,12 +2,12 @@
 // The alarm strip below the state bar, in every view: how many alarms there are, the first one with its cause and
 // remedy, and what leads back after a stop. Its place is always reserved, so that nothing moves when an alarm comes.
 import { useSignal } from "@preact/signals";
-import { alarmText } from "../plc/messages";
-import { explanation } from "../state/alarms";
+import { explanation, wording } from "../state/alarms";
 import { type Channel, holdingAlarms, type RecoveryStep, recoverySteps, sortedAlarms } from "../state/model";
-import { channelList, channelName, channels, chooseChannel, commandTo, machine, request, tell } from "../state/store";
+import { channelList, channelName, channels, chooseChannel, commandTo, machine, notice, request, tell } from "../state/store";
 import { text } from "../text/texts";
 import { AlarmList } from "./Alarms";
+import { AlarmWords } from "./AlarmWords";
 import { lacking } from "./Guard";
 
 const timeOut = 3000;
@@ -83,6 +83,20 @@ function Left({ one }: { one: Channel }) {
   );
 }
 
+/** The answer to what the operator did. The strip has a place for it, where it lies over no key. */
+function Notice() {
+  const value = notice.value;
+  return (
+    <div class="notice-place" role="status" aria-live="polite">
+      {value && (
+        <div class={`notice ${value.refused ? "refused" : ""}`} title={value.text} onClick={() => (notice.value = null)}>
+          {value.text}
+        </div>
+      )}
+    </div>
+  );
+}
+
 export function Attention() {
   const open = useSignal(false);
   const state = machine.value;
@@ -92,6 +106,7 @@ export function Attention() {
   const left = channelList.value.map((number) => channels.value[String(number)]!).filter((one) => one.restart_line > 0);
   const first = alarms[0];
   const why = first && explanation(first, t);
+  const says = first && wording(first, t);
   const kind = holdingAlarms(state).length > 0 || steps.length > 0 ? "bad" : first || left.length > 0 ? "warn" : "quiet";
   const listed = open.value && alarms.length > 0;
   return (
@@ -107,14 +122,17 @@ export function Attention() {
         {alarms.length === 0 ? t.noAlarms : t.alarmCount(alarms.length)}
       </button>
       <div class="first" role="alert">
-        {first && (
+        {first && says && (
           <>
-            <p class="digits" title={alarmText(first)}><b>{first.number}</b> {alarmText(first)}</p>
+            <p class="digits" title={[says.text, says.detail].join("\n").trim()}>
+              <b>{first.number}</b> <AlarmWords alarm={first} />
+            </p>
             {why?.cause && <p title={why.cause}>{t.cause}: {why.cause}</p>}
             {why && <p title={why.remedy}>{t.remedy}: {why.remedy}</p>}
           </>
         )}
       </div>
+      <Notice />
       {steps.length > 0 ? <Recovery steps={steps} /> : left.map((one) => <Left key={one.channel} one={one} />)}
       {listed && (
         <div class="alarm-panel alarms" tabIndex={0} aria-label={t.allAlarms} role="region">

@@ -2,7 +2,7 @@
 // Numbers that are typed into tables.
 import { useSignal } from "@preact/signals";
 import type { Answer } from "../api";
-import { millimetres } from "../format";
+import { millimetres, refusal } from "../format";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
 import { lacking } from "./Guard";
@@ -38,7 +38,7 @@ export function Cell({ value, label, store }: Props) {
     if (entered === undefined) tell(`${label}: ${text.peek().notANumber}`, true);
     else if (entered !== value) {
       const answer = await store(entered);
-      if (!answer.ok) tell(`${label}: ${answer.reason}`, true);
+      if (!answer.ok) tell(refusal(label, answer.reason), true);
     }
     draft.value = null;
   };

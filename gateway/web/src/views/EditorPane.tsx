@@ -4,6 +4,7 @@ import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { checkProgram, post, programText, storeProgram, utf8 } from "../api";
 import type { ProgramPath } from "../contract";
+import { refusal } from "../format";
 import { Checker, type CheckState } from "../program/check";
 import type { Drafts } from "../program/drafts";
 import type { ProgramEditor } from "../program/editor";
@@ -152,7 +153,7 @@ export function EditorPane({ program, drafts, changed }: Props) {
       ask(t.changedMeanwhile(name, newest?.revision ?? 0), t.replaceKey, () => void saveOn(newest?.revision ?? 0));
       return;
     }
-    if (!answer.ok || !answer.body) return tell(`${t.save}: ${answer.reason}`, true);
+    if (!answer.ok || !answer.body) return tell(refusal(t.save, answer.reason), true);
     tell(t.stored(name), false);
     // Typing goes on while the answer is on its way.
     const saved = { name, revision: answer.body.program.revision, stored: content, text: content };

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state bar over the whole width, in every view: what the channel does, and the two keys that stop. Nothing may lie
-// over it (style.css keeps it above everything else).
+// over it (state_bar.css keeps it above everything else), and no content moves the keys: they have an area of fixed size.
+import { useEffect } from "preact/hooks";
 import { duration } from "../format";
 import { cyclePeriod } from "../state/cycle_period";
 import { plan, remaining } from "../state/plan";
-import { channel, channelList, channelName, channelNumber, channels, chooseChannel, holdAll, machine, runTime, stop } from "../state/store";
+import { channel, channelList, channelName, channelNumber, channels, chooseChannel, connection, holdAll, machine, stop } from "../state/store";
 import { text } from "../text/texts";
 import { Operator } from "./OperatingRight";
 import { onPress } from "./press";
@@ -40,10 +41,9 @@ function ChannelTabs() {
 }
 
 function Elapsed({ number }: { number: number }) {
-  void machine.value.drive?.tick;  // what is shown changes with it
-  const time = runTime(number);
+  const time = machine.value.run_times?.[String(number)];
   const period = cyclePeriod.value;
-  if (time.ticks === 0 || period === undefined) return null;
+  if (!time || time.ticks === 0 || period === undefined) return null;
   return (
     <span class="elapsed digits" title={time.partial ? text.value.elapsedPartAbout : text.value.elapsedAbout}>
       <span class="dim">{text.value.elapsed}</span>
@@ -79,36 +79,48 @@ function Progress() {
   );
 }
 
+/** Whether the cluster is ready, which nobody knows without the gateway. */
+function ClusterTag() {
+  const t = text.value;
+  const cluster = machine.value.cluster;
+  const lost = connection.value === "lost";
+  const state = lost ? t.connectionLost : !cluster ? t.noCluster : cluster.ready ? t.clusterReady : t.clusterNotReady;
+  return <span class={`tag ${cluster?.ready && !lost ? "good" : "warn"}`} data-test="cluster">{state}</span>;
+}
+
 export function Header() {
-  const state = machine.value;
   const one = channel.value;
-  const cluster = state.cluster;
+  const cluster = machine.value.cluster;
+  const name = cluster?.title || cluster?.machine || "Trunnion";
+  useEffect(() => {
+    document.title = name;
+  }, [name]);
   const t = text.value;
   const typed = one?.mode === "MDI" && one.state !== "IDLE" && !one.suspended;
   return (
     <header aria-label={t.stateBar}>
-      <div class="machine-name">
-        <strong data-test="machine">{cluster?.machine || "Trunnion"}</strong>
-        <span class={`tag ${cluster?.ready ? "good" : "warn"}`} data-test="cluster">
-          {cluster ? (cluster.ready ? t.clusterReady : t.clusterNotReady) : t.noCluster}
-        </span>
-        <Operator />
-        {cluster?.virtual_time && <span class="tag note">{t.virtualTime}</span>}
+      <div class="facts">
+        <div class="machine-name">
+          <strong data-test="machine" title={cluster?.machine}>{name}</strong>
+          <ClusterTag />
+          {cluster?.virtual_time && <span class="tag note">{t.virtualTime}</span>}
+          <Operator />
+        </div>
+        <ChannelTabs />
+        {one && (
+          <>
+            <span class="mode" data-test="mode" data-mode={one.mode}>{t[`mode${one.mode}`]}</span>
+            <span class={`state ${one.state.toLowerCase()}`} data-test="state" data-state={one.state}>{t[`state${one.state}`]}</span>
+            <div class="run">
+              <b class="program-name" data-test="running">{typed ? t.modeMDI : one.program || t.noProgram}</b>
+              {!typed && <Progress />}
+              <span class="dim digits">{!typed && one.lines_total > 0 && t.lineOf(one.line, one.lines_total)}</span>
+            </div>
+            <Elapsed number={one.channel} />
+            <Remaining />
+          </>
+        )}
       </div>
-      <ChannelTabs />
-      {one && (
-        <>
-          <span class="mode" data-test="mode" data-mode={one.mode}>{t[`mode${one.mode}`]}</span>
-          <span class={`state ${one.state.toLowerCase()}`} data-test="state" data-state={one.state}>{t[`state${one.state}`]}</span>
-          <div class="run">
-            <b class="program-name" data-test="running">{typed ? t.modeMDI : one.program || t.noProgram}</b>
-            {!typed && <Progress />}
-            <span class="dim digits">{!typed && one.lines_total > 0 && t.lineOf(one.line, one.lines_total)}</span>
-          </div>
-          <Elapsed number={one.channel} />
-          <Remaining />
-        </>
-      )}
       <div class="stops">
         <button class="hold" data-test="feed-hold" title={t.feedHoldAbout} {...onPress(holdAll)}>
           {t.feedHold}

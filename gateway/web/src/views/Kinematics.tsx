@@ -4,7 +4,7 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { get, post } from "../api";
 import type { Calibration, Measurement, MeasurementResult, MeasurementState } from "../contract";
-import { timeOfDay } from "../format";
+import { refusal, timeOfDay } from "../format";
 import { isUnderWay, phaseText, poseNumber, possibleOrders } from "../measurement/progress";
 import { isOf, micrometres } from "../measurement/result";
 import { machine, request, tell } from "../state/store";
@@ -57,7 +57,7 @@ function UndoCalibration({ busy }: { busy: boolean }) {
       onClick={() =>
         args && ask(t.undoCalibrationQuestion(...args), t.undoCalibration, () => {
           void post("/api/measurement/undo").then((answer) => {
-            tell(answer.ok ? t.calibrationUndone(args[2]) : `${t.undoCalibration}: ${answer.reason}`, !answer.ok);
+            tell(answer.ok ? t.calibrationUndone(args[2]) : refusal(t.undoCalibration, answer.reason), !answer.ok);
             void lookAtLast();
           });
         })}

@@ -4,7 +4,7 @@ import { effect, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { get, post } from "../api";
 import type { ManualEvaluation, ManualGuide, ManualReading } from "../contract";
-import { millimetres, title as words } from "../format";
+import { millimetres, refusal, title as words } from "../format";
 import { displacementsBody, emptyNotes, type Notes, notesFrom, offsetRows, readingsBody, seriesOf, wrongAlpha, wrongDisplacement, wrongReadings } from "../measurement/manual";
 import { micrometres } from "../measurement/result";
 import { sixDigits } from "../state/parameter_file";
@@ -40,13 +40,13 @@ async function evaluate(from: Source, number: number): Promise<void> {
   const body = bodyOf(from, number);
   const answer = await post<ManualEvaluation>("/api/measurement/manual", body);
   if (answer.ok && answer.body) result.value = { from, body: JSON.stringify(body), evaluation: answer.body };
-  else tell(`${text.peek().manualCompute}: ${answer.reason}`, true);
+  else tell(refusal(text.peek().manualCompute, answer.reason), true);
 }
 
 async function write(from: Source, number: number): Promise<void> {
   const t = text.peek();
   const answer = await post<ManualEvaluation>("/api/measurement/manual/write", bodyOf(from, number));
-  tell(answer.ok ? t.manualWritten(answer.body?.changes.length ?? 0) : `${t.measurementConfirm}: ${answer.reason}`, !answer.ok);
+  tell(answer.ok ? t.manualWritten(answer.body?.changes.length ?? 0) : refusal(t.measurementConfirm, answer.reason), !answer.ok);
   if (!answer.ok) return;
   result.value = null;
   // They were read with the vectors of before: used again they would correct twice.

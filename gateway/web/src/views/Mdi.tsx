@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { effect, signal } from "@preact/signals";
 import { post } from "../api";
+import { refusal } from "../format";
 import { errorsOf, historyOf, maximumLineLength, MdiRun, mdiLines, remembered } from "../state/mdi";
 import { keep, kept } from "../state/preferences";
 import { channel, channels, command, machine, tell } from "../state/store";
@@ -18,7 +19,7 @@ function end(reason: string): void {
   if (!was || !reason) return;
   const { accepted, lines } = was.run;
   const rest = lines.length > 1 ? ` ${text.peek().mdiEnded(Math.min(accepted + 1, lines.length), lines.length)}` : "";
-  tell(`${text.peek().mdi}: ${reason}${rest}`, true);
+  tell(`${refusal(text.peek().mdi, reason)}${rest}`, true);
 }
 
 let asking = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect } from "preact/hooks";
 import { askOperating } from "../state/operating";
-import { channel, command, connection, holdAll, machine, notice, view } from "../state/store";
+import { channel, command, connection, holdAll, machine, view } from "../state/store";
 import { askSession, mustLogIn, session } from "../state/session";
 import { text } from "../text/texts";
 import { Attention } from "./Attention";
@@ -48,19 +48,6 @@ function Operate() {
         <Guard needs="operator"><Jog /></Guard>
       </div>
     </main>
-  );
-}
-
-function Notice() {
-  const value = notice.value;
-  return (
-    <div class="notice-place" role="status" aria-live="polite">
-      {value && (
-        <div class={`notice ${value.refused ? "refused" : ""}`} onClick={() => (notice.value = null)}>
-          {value.text}
-        </div>
-      )}
-    </div>
   );
 }
 
@@ -118,7 +105,7 @@ export function Page() {
     return () => window.removeEventListener("keydown", onKey);
   }, []);
   return (
-    <div class={`page ${machine.value.plc?.emergency_stop ? "stopped" : ""}`}>
+    <div class={`page ${machine.value.plc?.emergency_stop ? "stopped" : ""} ${live ? "" : "old"}`}>
       <Header />
       <Attention />
       <Rail />
@@ -129,7 +116,6 @@ export function Page() {
       {view.value === "parameters" && <Later load={loadParameters} />}
       {view.value === "analysis" && <Later load={loadAnalysis} />}
       {view.value === "diagnosis" && <Diagnosis />}
-      <Notice />
       <Question />
       <OperatingQuestion />
       {mustLogIn() ? <Login /> : <ConnectionLost />}

@@ -3,7 +3,7 @@
 import { useSignal } from "@preact/signals";
 import { type Answer, get, put, putIfSame } from "../api";
 import type { Parameter } from "../contract";
-import { limits, title, unit } from "../format";
+import { limits, refusal, title, unit } from "../format";
 import { type ComparedRow, importBodies, type ParameterFile, sixDigits, storedValue, type Verdict } from "../state/parameter_file";
 import { tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
@@ -27,7 +27,7 @@ const readAll = () => get<{ parameters: Parameter[] }>("/api/parameters?limit=10
 
 export async function allParameters(): Promise<Parameter[] | undefined> {
   const answer = await readAll();
-  if (!answer.body) tell(`${text.peek().parameters}: ${answer.reason}`, true);
+  if (!answer.body) tell(refusal(text.peek().parameters, answer.reason), true);
   return answer.body?.parameters;
 }
 
@@ -93,7 +93,7 @@ export function ParameterComparison({ comparison, choose, done, close }: Props) 
       busy.value = true;
       void takeOver(t.takenOver(count, what), rows).then((answer) => {
         busy.value = false;
-        tell(answer.ok ? t.takenOver(count, what) : `${what}: ${answer.reason}`, !answer.ok);
+        tell(answer.ok ? t.takenOver(count, what) : refusal(what, answer.reason), !answer.ok);
         if (answer.ok) done();
       });
     });

@@ -4,7 +4,7 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Answer, get, put } from "../api";
 import type { Parameter } from "../contract";
-import { millimetres } from "../format";
+import { millimetres, refusal } from "../format";
 import type { Channel } from "../state/model";
 import { isEmpty, planeAxes, planeCount, planeParameter, type PlanePoints, type Point } from "../state/planes";
 import { channel, machine, tell } from "../state/store";
@@ -76,7 +76,7 @@ function PlaneForm({ one }: { one: Channel }) {
     if (!tip) return;
     const what = `Q${plane} ${titles[point]}`;
     void store(first, 3 * point, tip, `${what} ${tip.map((value) => millimetres(value)).join(" ")}`).then((answer) =>
-      tell(answer.ok ? t.stored(what) : `${what}: ${answer.reason}`, !answer.ok));
+      tell(answer.ok ? t.stored(what) : refusal(what, answer.reason), !answer.ok));
   };
   return (
     <section class="plane" aria-label={t.plane(plane)}>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
+import { tickTexts } from "../format";
 import { historySeconds } from "../state/history";
 import { colour, shownTheme } from "../state/preferences";
 import { channel, channelNumber, history, machine } from "../state/store";
@@ -32,7 +33,10 @@ function makePlot(place: HTMLElement, title: string, series: uPlot.Series[]): uP
       // A flat line in the middle of an axis of noise says nothing, so the range includes zero.
       y: { range: (_, low, high) => [Math.min(0, low ?? 0), Math.max(high ?? 0, 1e-4) * 1.1] },
     },
-    axes: [{ ...axis(22), values: (_, ticks) => ticks.map((t) => `${t} s`) }, axis(52)],
+    axes: [
+      { ...axis(22), values: (_, ticks) => ticks.map((t) => `${t} s`) },
+      { ...axis(60), values: (_, ticks, _axis, _space, step) => tickTexts(ticks, step) },
+    ],
     series: [{}, ...series],
   };
   return new uPlot(options, [[]], place);

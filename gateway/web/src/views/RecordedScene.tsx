@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The path of a recording in 3D, coloured by what the operator chooses.
 import { useSignal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { Axes } from "../analysis/offered";
 import type { Recording } from "../analysis/recording";
 import { type Quantity, quantityOf } from "../analysis/signals";
+import { tipColumns } from "../analysis/tip";
+import type { Chain } from "../scene/chain";
 import type { RecordedPath } from "../scene/recorded_path";
 import { speedColour } from "../scene/path";
 import { colour, shownTheme } from "../state/preferences";
@@ -33,6 +35,7 @@ export function RecordedScene({ recording, axes, first, last, selected, select }
   const of = useSignal("");
   const frame = useSignal<"machine" | "workpiece">("machine");
   const tool = useSignal(String(channel.peek()?.tool_length || 0));
+  const chain = useSignal<Chain | undefined>(undefined);
   const scale = useSignal(0);
   const theme = shownTheme.value;
   const chosen = useRef(select);
@@ -57,39 +60,43 @@ export function RecordedScene({ recording, axes, first, last, selected, select }
       shown.value = null;
     };
   }, []);
-  const fitted = useRef<unknown[]>([]);
   useEffect(() => {
-    const path = shown.value;
-    if (!path) return;
+    const one = channel.peek();
+    if (frame.value !== "workpiece" || !one) return;
     let ended = false;
-    const put = async () => {
-      const letters = of.value === "" ? axes.linear : [of.value];
-      const values = quantityOf(quantity.value, letters, axes.positions, axes.commanded, recording.cycles, recording.period) ?? new Float64Array(recording.cycles.length);
-      const at = (letter: string) => axes.positions.get(letter);
-      const [x, y, z] = [at("X"), at("Y"), at("Z")];
-      let point = (row: number): [number, number, number] => [x?.[row] ?? 0, y?.[row] ?? 0, z?.[row] ?? 0];
-      const one = channel.peek();
-      if (frame.value === "workpiece" && one) {
-        const { readMachine } = await import("../scene/machine_data");
-        const machine = await readMachine(one);
-        if (ended || !machine) return;
-        const rotary = [..."ABCUVW"].map(at);
-        const length = typedNumber(tool.value) ?? 0;
-        const plain = point;
-        point = (row) => machine.chain.tipInWorkpiece(plain(row), rotary.map((column) => column?.[row] ?? 0), length) as [number, number, number];
-      }
-      path.set(point, values, first, last);
-      scale.value = path.scale;
-      const shape = [recording, frame.value, tool.value];
-      if (shape.some((part, i) => part !== fitted.current[i])) path.look("space");
-      fitted.current = shape;
-      path.showRow(selected, colour("warn"));
+    const read = async () => {
+      const { readMachine } = await import("../scene/machine_data");
+      const machine = await readMachine(one);
+      if (!ended) chain.value = machine?.chain;
     };
-    void put();
+    void read();
     return () => {
       ended = true;
     };
-  }, [shown.value, recording, axes, first, last, quantity.value, of.value, frame.value, tool.value]);
+  }, [frame.value]);
+  const length = typedNumber(tool.value) ?? 0;
+  const used = frame.value === "workpiece" ? chain.value : undefined;
+  const tips = useMemo(() => used && tipColumns(used, axes.positions, length), [used, axes, length]);
+  const fitted = useRef<unknown[]>([]);
+  useEffect(() => {
+    const path = shown.value;
+    if (!path || (frame.value === "workpiece" && !tips)) return;
+    const [x, y, z] = [..."XYZ"].map((letter) => (tips ?? axes.positions).get(letter));
+    const point = (row: number): [number, number, number] => [x?.[row] ?? 0, y?.[row] ?? 0, z?.[row] ?? 0];
+    const measure = (letters: string[], positions: Axes["positions"], commanded: Axes["commanded"]) =>
+      quantityOf(quantity.value, letters, positions, commanded, recording.cycles, recording.period) ?? new Float64Array(recording.cycles.length);
+    const ofTip = () => {
+      const commanded = used && quantity.value === "following" ? tipColumns(used, axes.commanded, length) : new Map<string, Float64Array>();
+      return measure([..."XYZ"], tips ?? new Map<string, Float64Array>(), commanded);
+    };
+    const ofAxes = () => measure(of.value === "" ? axes.linear : [of.value], axes.positions, axes.commanded);
+    path.set(point, tips && of.value === "" ? ofTip() : ofAxes(), first, last);
+    scale.value = path.scale;
+    const shape = [recording, frame.value, tool.value];
+    if (shape.some((part, i) => part !== fitted.current[i])) path.look("space");
+    fitted.current = shape;
+    path.showRow(selected, colour("warn"));
+  }, [shown.value, recording, axes, first, last, quantity.value, of.value, frame.value, tips]);
   useEffect(() => shown.value?.showRow(selected, colour("warn")), [selected, theme]);
 
   const quantities: Quantity[] = ["speed", "acceleration", "jerk", ...(axes.commanded.size > 0 ? (["following"] as const) : [])];
@@ -101,7 +108,7 @@ export function RecordedScene({ recording, axes, first, last, selected, select }
           {quantities.map((one) => <option key={one} value={one}>{names[one]}</option>)}
         </select>
         <select aria-label={t.colourOf} value={of.value} onChange={(event) => (of.value = event.currentTarget.value)}>
-          <option value="">{axes.linear.join(" ")}</option>
+          <option value="">{frame.value === "workpiece" ? t.colourOfTip : axes.linear.join(" ")}</option>
           {axes.all.map((letter) => <option key={letter} value={letter}>{letter}</option>)}
         </select>
         <select aria-label={t.frame} value={frame.value} onChange={(event) => (frame.value = event.currentTarget.value as "machine" | "workpiece")}>

@@ -3,8 +3,9 @@ import { signal, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { duration } from "../format";
 import { speedColour } from "../scene/path";
+import { type Standpoint, standpointOf } from "../scene/standpoint";
 import type { FixedView, Layer, Viewer } from "../scene/viewer";
-import { colour, shownTheme } from "../state/preferences";
+import { colour, keep, kept, shownTheme } from "../state/preferences";
 import { plan } from "../state/plan";
 import { channel, channelNumber, history, machine } from "../state/store";
 import { text, type Texts } from "../text/texts";
@@ -18,6 +19,14 @@ const layers: [Layer, keyof Texts & `scene${string}`][] = [
 const shown = signal<Record<Layer, boolean>>({ machine: true, travel: true, programmed: true, path: true });
 const following = signal(false);
 const scaleColours = Array.from({ length: 9 }, (_, i) => `rgb(${speedColour(i / 8).join()})`).join();
+
+/** Of the operator's choice; undefined: machine, workpiece zero and paths fill the picture. */
+let standpoint = standpointOf(kept("scene"));
+
+function remember(chosen: Standpoint | undefined): void {
+  standpoint = chosen;
+  keep("scene", chosen ? JSON.stringify(chosen) : "");
+}
 
 type Status = "sceneLoading" | "sceneMissing" | "sceneNoChain" | "";
 
@@ -54,13 +63,15 @@ export function SceneView() {
       status.value = "";
       for (const [layer] of layers) made.show(layer, shown.peek()[layer]);
       made.follow(following.peek());
+      made.onMoved = () => remember(made.standpoint);
       let first = true;
       const follow = () => {
         // Nothing is computed or drawn for a tab that is not seen; the history goes on.
         const one = channel.peek();
         if (document.hidden || !one) return;
         made.update(one, history(one.channel));
-        if (first) made.fit();
+        if (first && standpoint) made.stand(standpoint);
+        else if (first) made.fit(true);
         first = false;
         if (facts.peek().segments !== made.segments || facts.peek().scale !== made.scale)
           facts.value = { segments: made.segments, scale: made.scale };
@@ -68,7 +79,7 @@ export function SceneView() {
       const zero = data.offsets.find((offset) => offset.channel === number && offset.index === 0)?.values ?? [];
       const programmed = () => {
         made.program(plan.value?.channel === number ? plan.value.path : undefined, [zero[0] ?? 0, zero[1] ?? 0, zero[2] ?? 0]);
-        if (made.segments === 0) made.fit();
+        made.refit();
       };
       stops.push(plan.subscribe(programmed), machine.subscribe(follow), shownTheme.subscribe(() => made.paint(colour)), () => made.dispose());
     };
@@ -80,18 +91,37 @@ export function SceneView() {
     };
   }, [number, parameters, tools, work_offsets, resets]);
 
+  const seen = (from: (made: Viewer) => void) => {
+    if (!viewer.current) return;
+    from(viewer.current);
+    remember(viewer.current.standpoint);
+  };
+  const whole = () => {
+    viewer.current?.fit(true);
+    remember(undefined);
+  };
   const t = text.value;
   const planned = plan.value;
   return (
     <main class="scene" aria-label={t.scene}>
-      <canvas ref={canvas} key={[number, parameters, tools, work_offsets, resets].join()} tabIndex={0} role="img" aria-label={t.scenePicture} data-test="scene" />
+      <canvas
+        ref={canvas}
+        key={[number, parameters, tools, work_offsets, resets].join()}
+        tabIndex={0}
+        role="img"
+        aria-label={t.scenePicture}
+        data-test="scene"
+        onKeyUp={(event) => {
+          if (event.key.startsWith("Arrow")) viewer.current?.moved();
+        }}
+      />
       <div class="scene-keys">
         <div class="segments" role="group" aria-label={t.sceneViews}>
           {views.map(([name, title]) => (
-            <button key={name} data-test={`look-${name}`} onClick={() => viewer.current?.look(name)}>{t[title] as string}</button>
+            <button key={name} data-test={`look-${name}`} onClick={() => seen((made) => made.look(name))}>{t[title] as string}</button>
           ))}
-          <button data-test="look-fit" onClick={() => viewer.current?.fit()}>{t.sceneFit}</button>
-          <button data-test="look-whole" onClick={() => viewer.current?.fit(true)}>{t.sceneWhole}</button>
+          <button data-test="look-fit" onClick={() => seen((made) => made.fit())}>{t.sceneFit}</button>
+          <button data-test="look-whole" onClick={whole}>{t.sceneWhole}</button>
         </div>
         <div class="segments" role="group" aria-label={t.sceneShow}>
           {layers.map(([layer, title]) => (

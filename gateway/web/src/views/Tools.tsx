@@ -4,7 +4,7 @@ import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Answer, get, put, remove } from "../api";
 import type { Tool, ToolTable } from "../contract";
-import { millimetres } from "../format";
+import { millimetres, refusal } from "../format";
 import { channel, machine, tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
 import { text } from "../text/texts";
@@ -56,7 +56,7 @@ function NewTool() {
     if (table.peek().tools.some((tool) => tool.number === wanted)) return tell(t.toolExists(wanted), true);
     const made = { number: wanted, length: 0, length_wear: 0, radius: 0, radius_wear: 0, name: "" };
     const answer = await change(undefined, made, t.toolCreated(wanted));
-    if (!answer.ok) return tell(`T${wanted}: ${answer.reason}`, true);
+    if (!answer.ok) return tell(refusal(`T${wanted}`, answer.reason), true);
     number.value = "";
     chosen.value = wanted;
   };
@@ -83,7 +83,7 @@ function NameCell({ tool }: { tool: Tool }) {
     const name = draft.value;
     if (name !== null && name !== tool.name) {
       const answer = await change(tool, { ...tool, name }, `T${tool.number} ${tool.name} → ${name}`);
-      if (!answer.ok) tell(`${label}: ${answer.reason}`, true);
+      if (!answer.ok) tell(refusal(label, answer.reason), true);
     }
     draft.value = null;
   };
@@ -116,7 +116,7 @@ function Wear({ tool }: { tool: Tool }) {
     if (delta === undefined) return tell(`${title}: ${t.notANumber}`, true);
     const value = Math.round((tool[field] + delta) * 1e9) / 1e9;
     const answer = await change(tool, { ...tool, [field]: value }, `T${tool.number} ${title} ${millimetres(tool[field])} → ${millimetres(value)}`);
-    if (!answer.ok) return tell(`${title}: ${answer.reason}`, true);
+    if (!answer.ok) return tell(refusal(title, answer.reason), true);
     deltas.value = { ...deltas.value, [field]: "" };
   };
   return (
@@ -146,7 +146,7 @@ function Wear({ tool }: { tool: Tool }) {
         disabled={tool.number === channel.value?.tool}
         onClick={() =>
           ask(t.deleteToolQuestion(tool.number), t.deleteKey, () => {
-            void change(tool, undefined, t.toolDeleted(tool.number)).then((answer) => !answer.ok && tell(`T${tool.number}: ${answer.reason}`, true));
+            void change(tool, undefined, t.toolDeleted(tool.number)).then((answer) => !answer.ok && tell(refusal(`T${tool.number}`, answer.reason), true));
           })}
       >
         {t.deleteTool(tool.number)}

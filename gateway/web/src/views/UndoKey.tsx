@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useSignal } from "@preact/signals";
+import { refusal } from "../format";
 import { tell } from "../state/store";
 import { changes, undoLast } from "../state/undo";
 import { text } from "../text/texts";
@@ -19,7 +20,7 @@ export function UndoKey() {
         busy.value = true;
         void undoLast().then((answer) => {
           busy.value = false;
-          if (answer) tell(answer.ok ? t.undone(last!.what) : `${t.undo}: ${answer.reason}`, !answer.ok);
+          if (answer) tell(answer.ok ? t.undone(last!.what) : refusal(t.undo, answer.reason), !answer.ok);
         });
       }}
     >

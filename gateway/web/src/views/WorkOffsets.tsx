@@ -4,7 +4,7 @@ import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Answer, get, put } from "../api";
 import type { WorkOffset, WorkOffsets as Table } from "../contract";
-import { millimetres } from "../format";
+import { millimetres, refusal } from "../format";
 import type { Channel } from "../state/model";
 import { channel, channels, machine, tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
@@ -76,7 +76,7 @@ function FromPosition({ one }: { one: Channel }) {
   const save = async (values: number[], what: string) => {
     busy.value = true;
     const answer = await store(row, values);
-    tell(answer.ok ? t.stored(what) : `${what}: ${answer.reason}`, !answer.ok);
+    tell(answer.ok ? t.stored(what) : refusal(what, answer.reason), !answer.ok);
     busy.value = false;
   };
   const shown = (letter: string) => channel.value?.workpiece[one.letters.indexOf(letter)] ?? 0;

@@ -20,6 +20,11 @@ F50 G31 X20 A5
 (10 mm at a lead of 4 and half a turn for the end: 2.5 turns.)
 G0 X10
 G3 X-10 Z10 I-10 K4 F100
+(=== a lead of 0 says nothing)
+G0 X10
+G3 X-10 Y0 Z10 I-10 J0 K0 F100
+(and of an arc in the plane)
+X10 I10 K0
 (=== a lead beside L says nothing)
 G0 X10
 G3 X-10 Z10 I-10 K4 L2 F100

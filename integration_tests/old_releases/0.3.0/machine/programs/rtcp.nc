@@ -1,0 +1,30 @@
+%
+O206 (RTCP: the tip stands still while the axes turn, then runs on lines, arcs and a helix)
+G21 G17 G90 G54 G94 G61
+T1 M6
+S3000 M3
+G53 G0 Z0
+G0 X0 Y0 A0
+G43.4 H1
+G1 X0 Y0 Z60 F3000
+(standing tip)
+G1 A30 F2000
+G1 A-25 F2000
+G1 A90 F2000
+G1 A200 F2000
+G1 A0
+(lines)
+G1 X40 Y0 Z60 A30 F3000
+G1 X40 Y30 Z70 A-25 F3000
+G1 X-40 Y30 Z60 A90 F3000
+G1 X0 Y0 Z60 A200 F3000
+(arcs and a helix)
+G2 X40 Y0 I20 J0 A20
+G3 X40 Y0 I-20 J0 A-15
+G3 X40 Y0 Z75 I-20 J0 A25
+G1 X0 Y0 Z60 A0
+G49
+G53 G0 Z0
+M5
+M30
+%
