@@ -86,7 +86,9 @@ class Ownership {
 
 // When the inputs of a channel took effect. It answers a request, and says of outputs of the PLC that changed
 // something (as client 1 + its number, with their tick), before it computes the next cycle: by one clock,
-// that of its own outputs. Outputs that others replaced before it read them had no effect.
+// that of its own outputs. Outputs that others replaced before it read them had no effect. Those that it took
+// without a change come behind its answer to the ones before them: their writer may have written them before
+// that answer, and fed first they would be answered themselves.
 class TimesOfEffect {
  public:
   TimesOfEffect(const StoredRecording& recording, std::uint16_t channel) : channel_(channel) {
@@ -98,8 +100,8 @@ class TimesOfEffect {
     for (const auto* message : by_time) see(*message);
   }
   std::uint64_t of(const StoredMessage& message) const {
-    const auto found = effects_.find(&message);
-    return found == effects_.end() ? message.time : std::max(message.time, found->second - 1);
+    const auto found = fed_.find(&message);
+    return found == fed_.end() ? message.time : std::max(message.time, found->second);
   }
   bool had_none(const StoredMessage& message) const { return replaced_.contains(&message); }
 
@@ -120,7 +122,7 @@ class TimesOfEffect {
   void see(const StoredMessage& message) {
     if (message.topic->handle == "channel_request" && bus::decode(message.cdr, request_)) {
       const auto found = answered_.find({request_.client, request_.number});
-      if (found != answered_.end()) effects_[&message] = found->second;
+      if (found != answered_.end()) fed_[&message] = found->second - 1;
     } else if (message.topic->handle == "plc_outputs" && bus::decode(message.cdr, outputs_)) {
       Control control(outputs_.feed_hold, channel_ < outputs_.channels.size() ? outputs_.channels[channel_]
                                                                               : idl::plc::ChannelControl{});
@@ -128,14 +130,22 @@ class TimesOfEffect {
         in_force_ = std::move(control);
       else if (control != *in_force_)
         replaced_.insert(&message);
+      keep_order(message);
     }
+  }
+  void keep_order(const StoredMessage& outputs) {
+    const bool answered = effects_.contains(&outputs);
+    if (answered) newest_effect_ = effects_.at(&outputs);
+    fed_[&outputs] = answered ? newest_effect_ - 1 : newest_effect_ + 1;
   }
 
   std::uint16_t channel_;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint64_t> answered_;
   std::map<std::uint64_t, const StoredMessage*> newest_;  // outputs by their tick
   std::optional<Control> in_force_;
-  std::map<const StoredMessage*, std::uint64_t> effects_;
+  std::map<const StoredMessage*, std::uint64_t> effects_;  // of outputs: when the channel answered them
+  std::uint64_t newest_effect_ = 0;
+  std::map<const StoredMessage*, std::uint64_t> fed_;  // not before this time
   std::set<const StoredMessage*> replaced_;
   idl::channel::ChannelReply reply_;
   idl::channel::ChannelRequest request_;

@@ -100,6 +100,43 @@ TEST(OrderedPlan, OutputsThatOthersReplacedBeforeTheChannelReadThemAreNotFed) {
   EXPECT_EQ(fed, "10 21 30 40 ");
 }
 
+// Virtual time goes on by a hundred ticks at once: the PLC may have written again before the channel has
+// answered the outputs that it has taken.
+TEST(OrderedPlan, OutputsThatArriveTogetherAreFedAsTheChannelTookThem) {
+  const auto outputs = [](std::uint64_t tick, bool hold) {
+    idl::plc::Outputs made;
+    made.tick = tick;
+    made.feed_hold = hold;
+    return made;
+  };
+  const auto taken = [](std::uint64_t tick) {
+    idl::channel::ChannelReply reply;
+    reply.client = 1, reply.number = tick, reply.accepted = true;  // of channel 0
+    return reply;
+  };
+  const auto fed = [](const StoredRecording& recording) {
+    std::string text;
+    for (const auto& step : plan_verification(recording, "channel", 0).steps)
+      if (step.message->topic->handle == "plc_outputs")
+        text += std::to_string(step.message->time) + (step.needs.empty() ? " " : " behind an answer ");
+    return text;
+  };
+  StoredRecording before;
+  before.messages = {parameters(1, 1), stored(topics::plc_outputs, outputs(2530, false), 10),
+                     stored(topics::plc_outputs, outputs(2630, true), 20)};
+  auto first = before, second = before, both = before;
+  first.messages.push_back(stored(topics::plc_outputs, outputs(2730, true), 25));
+  first.messages.push_back(stored(topics::channel_reply, taken(2630), 30));
+  EXPECT_EQ(fed(first), "10 20 25 behind an answer ") << "the second ones change nothing";
+  second.messages.push_back(stored(topics::plc_outputs, outputs(2730, true), 25));
+  second.messages.push_back(stored(topics::channel_reply, taken(2730), 30));
+  EXPECT_EQ(fed(second), "10 25 ") << "the second ones replaced the first";
+  both.messages.push_back(stored(topics::plc_outputs, outputs(2730, false), 25));
+  both.messages.push_back(stored(topics::channel_reply, taken(2630), 30));
+  both.messages.push_back(stored(topics::channel_reply, taken(2730), 35));
+  EXPECT_EQ(fed(both), "10 20 25 behind an answer ");
+}
+
 // The sample has neither requests to the program service nor its replies.
 TEST(OrderedPlan, AServiceThatHadNothingToDoIsToldFromARecordingThatCannotBeUsed) {
   auto recording = sample_recording(2);
