@@ -207,12 +207,7 @@ TEST_F(Hosts, AHostThatIsCutOffForThreeSecondsIsOneAlarmOnEitherSideAndCanBeRese
   hosts.enter("control");
   {
     Cluster cluster(on_control(domain));
-    hosts.expect("cut", " motion 3");
-    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion is silent, and with it "); }))
-        << cluster.told();
-    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion hears no other host"); }))
-        << cluster.told();
-    ASSERT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
+    ASSERT_NO_FATAL_FAILURE(cut_off_motion(hosts, cluster));
     ASSERT_TRUE(cluster.until([&] {
       cluster.reset_alarms();
       return cluster.active_alarms().empty();
@@ -237,13 +232,7 @@ TEST_F(Hosts, ASecuredHostThatIsCutOffForThreeSecondsTakesPartAgainAfterAReset) 
   hosts.enter("control");
   {
     Cluster cluster(network);
-    hosts.expect("cut", " motion 3");
-    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion is silent"); }))
-        << cluster.told();
-    // The alarm of the other side comes when the cut is over.
-    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion hears no other host"); }))
-        << cluster.told();
-    ASSERT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
+    ASSERT_NO_FATAL_FAILURE(cut_off_motion(hosts, cluster));
     ASSERT_TRUE(cluster.until([&] {
       cluster.reset_alarms();
       return cluster.active_alarms().empty();
