@@ -8,20 +8,16 @@
 #include <dds/ddsi/ddsi_sertype.h>
 #include <dds/ddsi/q_radmin.h>
 #include <dds/ddsrt/log.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
-#include <thread>
 #include <tuple>
 
 #include "bus/endpoint.hpp"
@@ -29,6 +25,7 @@
 #include "bus/security.hpp"
 #include "loopback_bind.hpp"
 #include "origin.hpp"
+#include "secured_end.hpp"
 
 #ifndef TRUNNION_CYCLONE_PLUGINS
 #define TRUNNION_CYCLONE_PLUGINS ""
@@ -410,19 +407,9 @@ class Participants {
   // The others learn at once that this process ends.
   void end(int status) {
     for (const auto& [key, participant] : idle_) dds_delete(participant);
-    // The threads of a secured domain would go on encrypting while OpenSSL, loaded with the security plugins,
-    // clears up: what is registered later is called earlier. A domain without security is left as it is: its
-    // end waits for a packet to itself, which never comes when the network is gone.
-    if (!secured_) return;
-    const auto ended = std::make_shared<std::promise<void>>();
-    std::thread([ended] {
-      dds_delete(DDS_CYCLONEDDS_HANDLE);
-      ended->set_value();
-    }).detach();
-    constexpr std::chrono::seconds longest(2);
-    if (ended->get_future().wait_for(longest) == std::future_status::ready) return;
-    std::fflush(nullptr);
-    _exit(status);
+    // A domain without security is left as it is: its end waits for a packet to itself, which never comes
+    // when the network is gone.
+    if (secured_) end_secured_domains(status);
   }
   static Participants& of_this_process() {
     static auto* const all = new Participants;  // outlives every Bus, static ones too
