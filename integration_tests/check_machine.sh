@@ -22,11 +22,11 @@ assert report["machine"] == "two-channel" and report["channels"] == 2, report
 assert [(f["line"], f["column"]) for f in report["findings"]] == [(3, 11), (7, 11), (14, 11)], report
 END_PYTHON
 
-for command in "up $work/m --domain 79 --state $work/state" "run $work/m none --domain 79"; do
+for command in "up $work/m --domain 73 --state $work/state" "run $work/m none --domain 73"; do
   ! "$trunnion" $command > "$work/out" 2> "$work/refused" || fail "$command starts"
   sed 's/^trunnion: //' "$work/refused" | diff - "$work/bad" || fail "$command"
 done
-[ ! -e "/tmp/trunnion-$(id -u)/79" ] && [ ! -e "$work/state" ] || fail "something is left"
+[ ! -e "/tmp/trunnion-$(id -u)/73" ] && [ ! -e "$work/state" ] || fail "something is left"
 ! pgrep -u "$(id -u)" -f -- "--machine $work/m" > /dev/null || fail "a process is left"
 
 # Saved before such changes were refused, here a reference point outside the travel of 400 mm: the machine starts with an alarm,

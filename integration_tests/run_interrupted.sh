@@ -60,7 +60,7 @@ nothing_left SIGKILL
 
 # The reader of the output is gone before the first line of a command with a cluster of its own.
 set +e
-in_domain=77
+in_domain=71
 "$trunnion" gantry gantry-cb-head --domain "$in_domain" 2> "$work/said" | true
 status=${PIPESTATUS[0]}
 set -e
