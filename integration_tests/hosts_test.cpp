@@ -53,7 +53,7 @@ Rows over_three_hosts(const std::string& program, const Machines& machines, Thre
     cluster.keep_rows = true;
     begin(cluster, program);
     EXPECT_TRUE(cluster.finish(0, 90)) << cluster.told();
-    EXPECT_TRUE(cluster.until([&] { return cluster.rows.size() >= expected.size(); }, 2))
+    EXPECT_TRUE(cluster.until([&] { return cluster.rows.size() >= expected.size(); }))
         << cluster.rows.size() << " cycles instead of " << expected.size();
     rows = cluster.rows;
   }
