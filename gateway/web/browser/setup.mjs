@@ -145,6 +145,7 @@ async function intoSpindle(page, url) {
   check("a tool is not loaded while the channel moves, and it is said why", (await channelState(url)).state === "RUNNING");
   await post(url, "channels/0/reset");
   await post(url, "channels/0/override", { kind: "feed", value: 1 });
+  await knows(page, "the channel is at rest", ({ state }) => state === "IDLE");
   await post(url, "channels/0/mode", { mode: "JOG" });
   await knows(page, "the channel is at rest in another mode", ({ state, mode }) => state === "IDLE" && mode === "JOG");
   await told(page, "T2 M6 is being executed", () => load.click(), { refused: false });
