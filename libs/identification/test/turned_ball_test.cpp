@@ -103,6 +103,7 @@ TEST(TurnedBall, IsNotAtTheTipWhileAnAxisIsOnItsWay) {
   motion.traces[2].setpoint[0] += 5;  // mm
   truth::Instrument sensor(truth::InstrumentTruth{});
   const auto samples = read_ball(set, motion, {}, sensor, nullptr);
+  ASSERT_GE(samples.size(), 2u);
   EXPECT_FALSE(samples[0].at_ball);
   EXPECT_TRUE(samples[1].at_ball);
 }

@@ -164,6 +164,7 @@ TEST_F(Tap, AMachineWithoutASpindleRefusesItBeforeTheToolIsInTheHole) {
   run();
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(events.back().alarm, &alarm::tapping_spindle_missing);
+  ASSERT_FALSE(drive.rows.empty());
   EXPECT_EQ(drive.rows.back()[2], 2);
 }
 
@@ -173,6 +174,7 @@ TEST_F(Tap, AHoleBeyondTheTravelEndsTheProgramAboveIt) {
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(events.back().alarm, &alarm::travel_limit);
+  ASSERT_FALSE(drive.rows.empty());
   EXPECT_EQ(drive.rows.back()[2], 2);
 }
 
@@ -187,6 +189,7 @@ TEST_F(Tap, AfterTheStreamWasLostInTheThreadTheProgramCannotBeResumed) {
   ask(CommandKind::CYCLE_START);
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
+  ASSERT_FALSE(events.empty());
   EXPECT_EQ(events.back().alarm, &alarm::not_resumable);
   EXPECT_EQ(drive.rows.size(), moved) << "nothing moved again";
 }
