@@ -214,7 +214,7 @@ class Cluster {
     const bool ended = until(
         [&] { return state(channel) == RunState::IDLE || state(channel) == RunState::INTERRUPTED; }, seconds);
     // The state may come before the last rows, which are of another topic.
-    if (ended && keep_rows) until([&] { return expected_cycle >= channels[channel].cycle; }, 2);
+    if (ended && keep_rows) until([&] { return expected_cycle >= channels[channel].cycle; });
     return ended && state(channel) == RunState::IDLE;
   }
   /// After a stop: resets what can be reset and starts again, until the channel runs.
