@@ -2,7 +2,7 @@
 // The recordings that the machine keeps: start, stop, open, download, delete.
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import type { Source } from "../analysis/open_file";
+import type { Source } from "../analysis/recording";
 import { get, post, remove } from "../api";
 import type { RecordingEntry, RecordingList } from "../contract";
 import { tell } from "../state/store";
