@@ -5,6 +5,13 @@ export function millimetres(value: number, decimals = 3): string {
   return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "\u2212");
 }
 
+/** A number as it is typed, with comma or point; nothing when it is none. */
+export function typedNumber(typed = ""): number | undefined {
+  const text = typed.trim().replace(",", ".").replace("\u2212", "-");
+  const value = Number(text);
+  return text === "" || !Number.isFinite(value) ? undefined : value;
+}
+
 /** The numbers at an axis, `step` apart: with the decimals of the step, whatever its size. */
 export function tickTexts(values: readonly number[], step: number): string[] {
   let decimals = 0;

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import { bytes, compact, duration, limits, millimetres, refusal, tickTexts, title, unit } from "../src/format";
+import { bytes, compact, duration, limits, millimetres, refusal, tickTexts, title, typedNumber, unit } from "../src/format";
 
 test("a position never reads minus zero and a negative one has a minus sign", () => {
   expect(millimetres(-0.0001)).toBe("0.000");
   expect(millimetres(-1.5)).toBe("\u22121.500");
   expect(millimetres(12.3456, 4)).toBe("12.3456");
+});
+
+test("a typed number has a comma or a point", () => {
+  expect([" 1,5 ", "-.5", "\u22123", "1e2", "", "1.2.3", "Infinity"].map((typed) => typedNumber(typed))).toEqual([1.5, -0.5, -3, 100, undefined, undefined, undefined]);
+  expect([typedNumber(undefined), typedNumber("  ")]).toEqual([undefined, undefined]);
 });
 
 test("numbers to look at", () => {

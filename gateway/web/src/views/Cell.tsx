@@ -2,19 +2,13 @@
 // Numbers that are typed into tables.
 import { useSignal } from "@preact/signals";
 import type { Answer } from "../api";
-import { millimetres, refusal } from "../format";
+import { millimetres, refusal, typedNumber } from "../format";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
 import { lacking } from "./Guard";
 
 /** Every digit that is stored: what is shown is rounded, what is edited is not. */
 const exactly = (value: number) => String(value);
-
-/** A number as it is typed, with comma or point; nothing when it is none. */
-export function typedNumber(typed: string): number | undefined {
-  const number = Number(typed.trim().replace(",", ".").replace("\u2212", "-"));
-  return typed.trim() === "" || !Number.isFinite(number) ? undefined : number;
-}
 
 interface Props {
   value: number;

@@ -4,7 +4,7 @@ import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Answer, get, put, remove } from "../api";
 import type { LifeUnit, Parameter, Tool, ToolTable } from "../contract";
-import { millimetres, refusal } from "../format";
+import { millimetres, refusal, typedNumber } from "../format";
 import { PlcWatch } from "../plc/watch";
 import { placeOf, placesOf, tableOf, tableParameter } from "../state/magazine";
 import { channel, channelNumber, commandTo, machine, tell } from "../state/store";
@@ -12,7 +12,7 @@ import { changeLine, mayChange } from "../state/tool_change";
 import { isUsedUp, lifeNumber, lifeText } from "../state/tool_life";
 import { changedSince, remember } from "../state/undo";
 import { text } from "../text/texts";
-import { Cell, typedNumber } from "./Cell";
+import { Cell } from "./Cell";
 import { Guard, lacking } from "./Guard";
 import { ask } from "./Question";
 

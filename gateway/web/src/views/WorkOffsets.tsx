@@ -4,13 +4,13 @@ import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Answer, get, put } from "../api";
 import type { WorkOffset, WorkOffsets as Table } from "../contract";
-import { millimetres, refusal } from "../format";
+import { millimetres, refusal, typedNumber } from "../format";
 import type { Channel } from "../state/model";
 import { channel, channels, machine, tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
 import { axisLetters, hindrances, isTakenOver, type OffsetChange, offsetChange, offsetCount, offsetFor, offsetName } from "../state/work_zero";
 import { text } from "../text/texts";
-import { Cell, typedNumber } from "./Cell";
+import { Cell } from "./Cell";
 import { Guard } from "./Guard";
 
 const table = signal<Table>({ set: 0, revision: 0, offsets: [] });
