@@ -7,13 +7,13 @@ import { axesOf } from "../analysis/offered";
 import { openFile } from "../analysis/open_file";
 import { type Recording, type Source, withLetters } from "../analysis/recording";
 import { difference, largest, startOfMotion } from "../analysis/signals";
+import { shortNumber } from "../format";
 import { cyclePeriod } from "../state/cycle_period";
 import { channel, tell } from "../state/store";
 import { text } from "../text/texts";
 import { Recordings } from "./Recordings";
 import { RecordingView } from "./RecordingView";
 import { Sampling } from "./Sampling";
-import { shortNumber } from "./Waveforms";
 
 const shown = signal<"live" | "file">("live");
 const first = signal<Recording | null>(null);
