@@ -445,7 +445,7 @@ export const chinese: Translation<typeof english> = {
   vendor: "厂商",
   state: "状态",
   detail: "详情",
-  framesPerSecond: "批次/s",
+  batchesPerSecond: "批次/s",
   lost: "丢失",
   restarts: "重启",
   up: "运行",

@@ -460,7 +460,7 @@ export const english = {
   vendor: "Vendor",
   state: "State",
   detail: "Detail",
-  framesPerSecond: "Batches/s",
+  batchesPerSecond: "Batches/s",
   lost: "Lost",
   restarts: "Restarts",
   up: "Up",

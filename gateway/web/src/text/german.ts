@@ -445,7 +445,7 @@ export const german: Translation<typeof english> = {
   vendor: "Hersteller",
   state: "Zustand",
   detail: "Einzelheit",
-  framesPerSecond: "Pakete/s",
+  batchesPerSecond: "Pakete/s",
   lost: "Verloren",
   restarts: "Neustarts",
   up: "Seit",
