@@ -90,6 +90,11 @@ class Alarm:
         return self.instance, self.number, self.part, self.occurrences
 
 
+def active_alarms(state: dict[str, Any]) -> list[Alarm]:
+    """The alarms of a state of the stream, in its order."""
+    return [from_json(Alarm, one) for one in state.get("alarms", {}).values()]
+
+
 @dataclasses.dataclass(frozen=True)
 class PastAlarm:
     """An alarm that there was. Times are ISO 8601; `cleared` is None while it is active."""

@@ -17,6 +17,13 @@ export interface Recording {
   columns: Column[];
 }
 
+/** A file of this computer, or the table of a recording of the machine. */
+export interface Source {
+  name: string;
+  file?: File;
+  url?: string;
+}
+
 /** Index of the last row that is not after `cycle`; 0 when all are. */
 export function rowAt(cycles: ArrayLike<number>, cycle: number): number {
   let [low, high] = [0, cycles.length - 1];

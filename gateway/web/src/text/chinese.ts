@@ -4,9 +4,10 @@ import { chineseAnalysis } from "./chinese_analysis";
 import { chineseMeasurement } from "./chinese_measurement";
 import { chineseMeasuring } from "./chinese_measuring";
 import { chinesePlc } from "./chinese_plc";
-import type { Texts } from "./texts";
+import type { english } from "./english";
+import type { Translation } from "./translation";
 
-export const chinese: Texts = {
+export const chinese: Translation<typeof english> = {
   languageCode: "zh",
   languageName: "中文",
   language: "语言",
@@ -444,7 +445,7 @@ export const chinese: Texts = {
   vendor: "厂商",
   state: "状态",
   detail: "详情",
-  framesPerSecond: "批次/s",
+  batchesPerSecond: "批次/s",
   lost: "丢失",
   restarts: "重启",
   up: "运行",

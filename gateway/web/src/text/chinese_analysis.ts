@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishAnalysis } from "./english_analysis";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const chineseAnalysis: Pick<Texts, keyof typeof englishAnalysis> = {
+export const chineseAnalysis: Translation<typeof englishAnalysis> = {
   sampling: "采样",
   recordings: "记录",
   samplingAbout: "选择信号并开始。实时模式下位置每周期采样；标有 20/s 的信号随每条消息更新。",

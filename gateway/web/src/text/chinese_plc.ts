@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishPlc } from "./english_plc";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const chinesePlc: Pick<Texts, keyof typeof englishPlc> = {
+export const chinesePlc: Translation<typeof englishPlc> = {
   plcPrograms: "PLC 程序",
   plcBack: "寄存器与服务",
   plcFile: "文件",

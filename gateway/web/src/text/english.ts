@@ -4,7 +4,7 @@ import { englishAnalysis } from "./english_analysis";
 import { englishMeasurement } from "./english_measurement";
 import { englishMeasuring } from "./english_measuring";
 import { englishPlc } from "./english_plc";
-// Every text of the page, in English. It defines the keys; the other languages have the same ones (texts.ts).
+// Every text of the page, in English. It defines the keys; the other languages have the same ones (translation.ts).
 export const english = {
   // The page as a whole
   languageCode: "en",
@@ -460,7 +460,7 @@ export const english = {
   vendor: "Vendor",
   state: "State",
   detail: "Detail",
-  framesPerSecond: "Batches/s",
+  batchesPerSecond: "Batches/s",
   lost: "Lost",
   restarts: "Restarts",
   up: "Up",

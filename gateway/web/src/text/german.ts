@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { english } from "./english";
 import { germanAccess } from "./german_access";
 import { germanAnalysis } from "./german_analysis";
 import { germanMeasurement } from "./german_measurement";
 import { germanMeasuring } from "./german_measuring";
 import { germanPlc } from "./german_plc";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const german: Texts = {
+export const german: Translation<typeof english> = {
   languageCode: "de",
   languageName: "Deutsch",
   language: "Sprache",
@@ -444,7 +445,7 @@ export const german: Texts = {
   vendor: "Hersteller",
   state: "Zustand",
   detail: "Einzelheit",
-  framesPerSecond: "Pakete/s",
+  batchesPerSecond: "Pakete/s",
   lost: "Verloren",
   restarts: "Neustarts",
   up: "Seit",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishAnalysis } from "./english_analysis";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const germanAnalysis: Pick<Texts, keyof typeof englishAnalysis> = {
+export const germanAnalysis: Translation<typeof englishAnalysis> = {
   sampling: "Abtastung",
   recordings: "Aufzeichnungen",
   samplingAbout: "Signale wählen und starten. Positionen werden in Echtzeit in jedem Takt abgetastet; was mit 20/s bezeichnet ist, kommt mit jeder Nachricht.",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishPlc } from "./english_plc";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const germanPlc: Pick<Texts, keyof typeof englishPlc> = {
+export const germanPlc: Translation<typeof englishPlc> = {
   plcPrograms: "SPS-Programme",
   plcBack: "Register und Dienste",
   plcFile: "Datei",

@@ -25,7 +25,7 @@ function Services() {
           <thead>
             <tr>
               <th>{t.service}</th><th>{t.replica}</th><th>{t.vendor}</th><th>PID</th><th>{t.state}</th><th>{t.detail}</th>
-              <th class="right">{t.framesPerSecond}</th><th class="right">{t.lost}</th><th class="right">{t.restarts}</th>
+              <th class="right">{t.batchesPerSecond}</th><th class="right">{t.lost}</th><th class="right">{t.restarts}</th>
               <th class="right">{t.up}</th><th>{t.heartbeat}</th>
             </tr>
           </thead>

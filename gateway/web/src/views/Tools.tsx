@@ -4,7 +4,7 @@ import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Answer, get, put, remove } from "../api";
 import type { LifeUnit, Parameter, Tool, ToolTable } from "../contract";
-import { millimetres, refusal } from "../format";
+import { fixed, refusal, typedNumber } from "../format";
 import { PlcWatch } from "../plc/watch";
 import { placeOf, placesOf, tableOf, tableParameter } from "../state/magazine";
 import { channel, channelNumber, commandTo, machine, tell } from "../state/store";
@@ -12,7 +12,7 @@ import { changeLine, mayChange } from "../state/tool_change";
 import { isUsedUp, lifeNumber, lifeText } from "../state/tool_life";
 import { changedSince, remember } from "../state/undo";
 import { text } from "../text/texts";
-import { Cell, typedNumber } from "./Cell";
+import { Cell } from "./Cell";
 import { Guard, lacking } from "./Guard";
 import { ask } from "./Question";
 
@@ -158,15 +158,15 @@ function Wear({ tool }: { tool: Tool }) {
     const delta = typedNumber(deltas.value[field]);
     if (delta === undefined) return tell(`${title}: ${t.notANumber}`, true);
     const value = Math.round((tool[field] + delta) * 1e9) / 1e9;
-    const answer = await change(tool, { ...tool, [field]: value }, `T${tool.number} ${title} ${millimetres(tool[field])} → ${millimetres(value)}`);
+    const answer = await change(tool, { ...tool, [field]: value }, `T${tool.number} ${title} ${fixed(tool[field])} → ${fixed(value)}`);
     if (!answer.ok) return tell(refusal(title, answer.reason), true);
     deltas.value = { ...deltas.value, [field]: "" };
   };
   return (
     <>
       <dl>
-        <dt>{t.activeLength}</dt><dd class="digits">{millimetres(tool.length + tool.length_wear)} mm</dd>
-        <dt>{t.activeRadius}</dt><dd class="digits">{millimetres(tool.radius + tool.radius_wear)} mm</dd>
+        <dt>{t.activeLength}</dt><dd class="digits">{fixed(tool.length + tool.length_wear)} mm</dd>
+        <dt>{t.activeRadius}</dt><dd class="digits">{fixed(tool.radius + tool.radius_wear)} mm</dd>
       </dl>
       {([["length_wear", t.lengthWear], ["radius_wear", t.radiusWear]] as const).map(([field, title]) => (
         <form
@@ -275,7 +275,7 @@ export function Tools() {
                       <Cell
                         value={tool[field]}
                         label={`T${tool.number} ${title}`}
-                        store={(value) => change(tool, { ...tool, [field]: value }, `T${tool.number} ${title} ${millimetres(tool[field])} → ${millimetres(value)}`)}
+                        store={(value) => change(tool, { ...tool, [field]: value }, `T${tool.number} ${title} ${fixed(tool[field])} → ${fixed(value)}`)}
                       />
                     </td>
                   ))}
