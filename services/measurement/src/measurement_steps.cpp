@@ -12,6 +12,7 @@
 #include "machine/roles.hpp"
 #include "measurement.hpp"
 #include "metrology/sphere.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::measurement {
 namespace {
@@ -119,7 +120,7 @@ std::string Measurement::where() const {
 void Measurement::fail(const std::string& cause, std::uint32_t alarm, double now) {
   const auto prefix = where() + ": ";
   cause_ = (cause.starts_with(prefix) ? "" : prefix) + cause;
-  stored_.state.error = cause_.substr(0, most_error);
+  stored_.state.error = text::shortened(cause_, most_error);
   stored_.state.alarm = alarm;
   stopping_since_ = now;
   hold_sent_ = false;
@@ -160,7 +161,7 @@ void Measurement::stop(double now) {
         std::string("; the channel is ") + bus::to_string(channel->state) + ", reset it before anything else";
   text += "; nothing written, " + std::to_string(state.complete) + " of " + std::to_string(state.poses) +
           " poses are complete";
-  state.error = text.substr(0, most_error);
+  state.error = text::shortened(std::move(text), most_error);
   change(Phase::INTERRUPTED);
   if (caller_asks()) answer(idl::channel::CycleOutcome::REFUSED, state.error);
 }
@@ -392,12 +393,12 @@ void Measurement::estimate(double now) {
     out.largest_change = result.largest_change, out.touch_deviation = result.touch_deviation;
     const auto middle = std::min(state.time.find('T'), state.time.size());
     const auto clock = state.time.substr(std::min(middle + 1, state.time.size()), 8);
-    out.protocol =
+    out.protocol = text::shortened(
         calibration::protocol_text({state.time.substr(0, middle), clock, "-", "probe of the machine"}, in,
-                                   plan_->measured, result)
-            .substr(0, most_protocol);
+                                   plan_->measured, result),
+        most_protocol);
     out.valid = true;
-    state.tolerance_alarm = result.tolerance_alarm.substr(0, most_text);
+    state.tolerance_alarm = text::shortened(result.tolerance_alarm, most_text);
     state.tolerance_needs_reset = in.tolerance_needs_reset;
   } catch (const std::exception& e) {
     return fail(e.what(), 0, now);
@@ -444,7 +445,7 @@ void Measurement::answered(std::size_t kind, const Answer& answer, double now) {
   if (stored_.state.phase == Phase::WRITING) {
     stored_.state.written = answer.accepted || written_already();
     stored_.state.error =
-        stored_.state.written ? "" : ("nothing written: " + answer.reason).substr(0, most_error);
+        stored_.state.written ? "" : text::shortened("nothing written: " + answer.reason, most_error);
     change(stored_.state.written ? Phase::FINISHED : Phase::WAITING);
     settle_caller();
   } else if (run_) {
