@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a measurement does by itself.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -353,18 +354,17 @@ void Measurement::check_repeatability(const calibration::MacroVariables& variabl
   const Vec3& tool = plan_->plan.poses.front().directions.back();
   const double range = calibration::range_along(positions, tool);
   stored_.state.repeatability = range;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "%zu touches of one point differ by %.2f um, %.2f um is permitted: check the probe",
-                calibration::repeated_touches, um * range, um * plan_->inputs.repeatability);
-  if (!(range <= plan_->inputs.repeatability)) throw std::runtime_error(text);
+  if (!(range <= plan_->inputs.repeatability))
+    throw std::runtime_error(
+        fmt::format("{} touches of one point differ by {:.2f} um, {:.2f} um is permitted: check the probe",
+                    calibration::repeated_touches, um * range, um * plan_->inputs.repeatability));
   if (touches_->done().empty()) return;
   const double moved = (positions.back() - touches_->done().front().positions.back()).dot(tool);
-  std::snprintf(text, sizeof text,
-                "the sphere is %.1f um from where the touches that are kept have it, %.0f um is permitted; "
-                "start again",
-                um * std::abs(moved), um * moved_tolerance);
-  if (!(std::abs(moved) <= moved_tolerance)) throw std::runtime_error(text);
+  if (!(std::abs(moved) <= moved_tolerance))
+    throw std::runtime_error(fmt::format(
+        "the sphere is {:.1f} um from where the touches that are kept have it, {:.0f} um is permitted; "
+        "start again",
+        um * std::abs(moved), um * moved_tolerance));
 }
 
 void Measurement::estimate(double now) {
