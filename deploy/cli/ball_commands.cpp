@@ -2,6 +2,8 @@
 // measure k-test, r-test: a rotary axis turns with tool tip control, a ball sensor reads the tip's deviation
 #include "ball_commands.hpp"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
@@ -32,7 +34,7 @@ struct CommandOptions : BallOptions {
 };
 
 std::string table_row(const std::string& name, const Vec3& v, const char* unit) {
-  return text("%-34s %10.3f %10.3f %10.3f %s", name.c_str(), v[0] * um, v[1] * um, v[2] * um, unit);
+  return fmt::format("{:<34} {:>10.3f} {:>10.3f} {:>10.3f} {}", name, v[0] * um, v[1] * um, v[2] * um, unit);
 }
 
 std::vector<PictureCurve> curves(const std::vector<double>& angles, const std::vector<Vec3>& deviations,
@@ -73,10 +75,10 @@ char annex_of(const truth::MachineOutline& machine) {
 
 void print_common(const BallTest& test, const CommandOptions& o, const BallTurn& turn) {
   std::cout << "axis " << o.axis
-            << text(" from %.3f to %.3f deg, ball at X%.3f Y%.3f Z%.3f of the workpiece, ", test.start(),
-                    test.start() + test.set().sweep, test.set().ball[0], test.set().ball[1],
-                    test.set().ball[2])
-            << text("tool %.3f mm\n", test.set().tool_length);
+            << fmt::format(" from {:.3f} to {:.3f} deg, ball at X{:.3f} Y{:.3f} Z{:.3f} of the workpiece, ",
+                           test.start(), test.start() + test.set().sweep, test.set().ball[0],
+                           test.set().ball[1], test.set().ball[2])
+            << fmt::format("tool {:.3f} mm\n", test.set().tool_length);
   print_figure("radius of the ball's circle", test.set().radius, "mm");
   print_figure("speed of the axis", std::abs(turn.speed), "rad/s");
   print_figure("readings in a second", 1 / turn.interval, "");
@@ -98,7 +100,7 @@ int k_test(CommandOptions o, const Common& common) {
   if (!common.json) {
     std::cout << name << ", ";
     print_common(test, o, motion.there);
-    std::cout << text("%-34s %10s %10s %10s\n", "largest less least", "X", "Y", "Z");
+    std::cout << fmt::format("{:<34} {:>10} {:>10} {:>10}\n", "largest less least", "X", "Y", "Z");
   }
   std::vector<PictureDiagram> diagrams;
   std::string csv = "sense,angle_deg,x_um,y_um,z_um\n";
@@ -117,8 +119,8 @@ int k_test(CommandOptions o, const Common& common) {
                   {"tangential_um", range.tangential * um},
                   {"axial_um", range.axial * um}};
     for (std::size_t i = 0; i < angles.size(); ++i)
-      csv += text("%s,%.6f,%.6f,%.6f,%.6f\n", sense, angles[i], deviations[i][0] * um, deviations[i][1] * um,
-                  deviations[i][2] * um);
+      csv += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f}\n", sense, angles[i], deviations[i][0] * um,
+                         deviations[i][1] * um, deviations[i][2] * um);
     diagrams.push_back(
         {std::string("deg of the axis, ") + sense + " sense", "um", curves(angles, deviations, "")});
     if (common.json) continue;
@@ -128,8 +130,8 @@ int k_test(CommandOptions o, const Common& common) {
     print_figure("  along the axis", range.axial * um, "um");
   }
   if (!o.plot.empty())
-    storage::replace_file(o.plot, stacked_picture(text("%s, %s: axis %s, F%g", session.machine().c_str(),
-                                                       name.c_str(), o.axis.c_str(), o.feed),
+    storage::replace_file(o.plot, stacked_picture(fmt::format("{}, {}: axis {}, F{:g}", session.machine(),
+                                                              name, o.axis, o.feed),
                                                   diagrams));
   if (!o.output.empty()) storage::replace_file(o.output, csv);
   if (common.json) std::cout << bus::text_of(out) << "\n";
@@ -150,7 +152,7 @@ void print(const identification::AxisLocation& location, const std::string& how)
     const double unit = e.angle ? urad : um;
     print_figure(
         e.name + ", " + how, e.value * unit,
-        text("%s, standard uncertainty %.3f", e.angle ? "urad" : "um", e.uncertainty * unit).c_str());
+        fmt::format("{}, standard uncertainty {:.3f}", e.angle ? "urad" : "um", e.uncertainty * unit));
   }
   for (const auto& name : location.hidden)
     std::cout << name << ", " << how << ": this place of the ball does not show it\n";
@@ -197,11 +199,12 @@ int r_test_study(BallTest& test, const CommandOptions& o, const std::string& mac
                             {"difference_um", vector_json(row.difference, um)},
                             {"cleaned_um", vector_json(row.cleaned, um)}});
     if (!json)
-      std::cout << text("%8g %7g %10.3f %10.3f %10.3f %10.3f %10.3f %10.3f\n", row.feed, row.start,
-                        row.difference[0] * um, row.difference[1] * um, row.difference[2] * um,
-                        row.cleaned[0] * um, row.cleaned[1] * um, row.cleaned[2] * um);
+      std::cout << fmt::format("{:>8g} {:>7g} {:>10.3f} {:>10.3f} {:>10.3f} {:>10.3f} {:>10.3f} {:>10.3f}\n",
+                               row.feed, row.start, row.difference[0] * um, row.difference[1] * um,
+                               row.difference[2] * um, row.cleaned[0] * um, row.cleaned[1] * um,
+                               row.cleaned[2] * um);
     for (Eigen::Index k = 0; k < 2; ++k) {
-      const auto name = text("%s, start %g", directions[k], row.start);
+      const auto name = fmt::format("{}, start {:g}", directions[k], row.start);
       auto curve = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
       if (curve == all.end()) curve = all.insert(all.end(), {name, {}});
       curve->points.push_back({row.feed, row.difference[k] * um});
@@ -282,16 +285,16 @@ int r_test(CommandOptions o, const Common& common) {
       if (h.order > 1 && h.order <= 100)
         spectrum.points.push_back({static_cast<double>(h.order), h.amplitude * um});
     if (!spectrum.points.empty()) diagrams.push_back({"harmonic of the turn", "um", {spectrum}});
-    storage::replace_file(o.plot, stacked_picture(text("%s: R-test, axis %s, F%g", session.machine().c_str(),
-                                                       o.axis.c_str(), o.feed),
-                                                  diagrams));
+    storage::replace_file(
+        o.plot, stacked_picture(fmt::format("{}: R-test, axis {}, F{:g}", session.machine(), o.axis, o.feed),
+                                diagrams));
   }
   if (!o.output.empty()) {
     std::string csv = "angle_deg,x_um,y_um,z_um,cleaned_x_um,cleaned_y_um,cleaned_z_um\n";
     for (std::size_t i = 0; i < result.angles.size(); ++i)
-      csv += text("%.6f,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", result.angles[i], result.read[i][0] * um,
-                  result.read[i][1] * um, result.read[i][2] * um, result.cleaned[i][0] * um,
-                  result.cleaned[i][1] * um, result.cleaned[i][2] * um);
+      csv += fmt::format("{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", result.angles[i],
+                         result.read[i][0] * um, result.read[i][1] * um, result.read[i][2] * um,
+                         result.cleaned[i][0] * um, result.cleaned[i][1] * um, result.cleaned[i][2] * um);
     storage::replace_file(o.output, csv);
   }
   if (common.json) {
@@ -300,11 +303,12 @@ int r_test(CommandOptions o, const Common& common) {
   }
   print_common(test, o, motion.there);
   for (const auto& s : motion.servos)
-    std::cout << text(
-        "servo %c: wn %.1f rad/s, xi %.3f, tau %.3f ms, Kv %.1f 1/s, feed-forward %.3f, fit %.2f %%\n",
+    std::cout << fmt::format(
+        "servo {}: wn {:.1f} rad/s, xi {:.3f}, tau {:.3f} ms, Kv {:.1f} 1/s, feed-forward {:.3f}, fit {:.2f} "
+        "%\n",
         s.letter, s.response.natural_frequency, s.response.damping, s.response.zero_time * 1e3,
         s.response.position_gain, s.response.feedforward, s.response.fit);
-  std::cout << text("%-34s %10s %10s %10s\n", "", "X", "Y", "Z");
+  std::cout << fmt::format("{:<34} {:>10} {:>10} {:>10}\n", "", "X", "Y", "Z");
   std::cout << table_row("noise at rest, standard deviation", motion.there.noise, "um") << "\n"
             << table_row("largest less least, as read", span_of(result.read), "um") << "\n"
             << table_row("  without servo, noise, pitch", span_of(result.cleaned), "um") << "\n";
@@ -313,7 +317,7 @@ int r_test(CommandOptions o, const Common& common) {
               << table_row("  without servo, noise, pitch", cleaned, "um") << "\n";
   for (const auto& h : result.pitch)
     print_figure("pitch error, harmonic " + std::to_string(h.order), h.amplitude * um,
-                 text("um at %.2f rad/s", static_cast<double>(h.order) * speed).c_str());
+                 fmt::format("um at {:.2f} rad/s", static_cast<double>(h.order) * speed));
   print(result.location, "dynamic");
   if (stops.size() >= 4) print(standing, "static");
   return 0;

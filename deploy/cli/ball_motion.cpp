@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ball_motion.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -54,8 +56,9 @@ BallTest::BallTest(ServoSession& session, const BallOptions& options)
   set_.sweep = options_.sweep.value_or(endless ? 360 : share_of_travel * (high - low));
   start_ = options_.start.value_or(endless ? 0 : low + (high - low) * (1 - share_of_travel) / 2);
   if (!endless && (start_ < low || start_ > high || start_ + set_.sweep < low || start_ + set_.sweep > high))
-    throw std::runtime_error(text("axis %c cannot turn from %.3f to %.3f deg: its travel is %.3f .. %.3f",
-                                  axis.letter, start_, start_ + set_.sweep, low, high));
+    throw std::runtime_error(
+        fmt::format("axis {} cannot turn from {:.3f} to {:.3f} deg: its travel is {:.3f} .. {:.3f}",
+                    axis.letter, start_, start_ + set_.sweep, low, high));
   find_circle();
   check_travel(start_);
   auto report =
@@ -85,9 +88,9 @@ void BallTest::check_travel(double start) const {
       const auto& a = session_.axis(std::string(1, static_cast<char>('X' + i)));
       if (place[i] >= a.low && place[i] <= a.high) continue;
       throw std::runtime_error(
-          text("axis %c would go to %.3f mm at %c%.1f, its travel is %.3f .. %.3f: choose "
-               "--ball, --radius, --start or --sweep",
-               a.letter, place[i], options_.axis[0], angle, a.low, a.high));
+          fmt::format("axis {} would go to {:.3f} mm at {}{:.1f}, its travel is {:.3f} .. {:.3f}: choose "
+                      "--ball, --radius, --start or --sweep",
+                      a.letter, place[i], options_.axis[0], angle, a.low, a.high));
     }
   }
 }
@@ -103,8 +106,9 @@ BallMotion BallTest::run(double feed, double start) {
   const auto& axis = session_.axis(options_.axis);
   const double turning = feed / set_.radius * 180 / std::numbers::pi;  // deg/min
   if (turning > axis.highest_feed)
-    throw std::runtime_error(text("--feed %g: axis %c would turn with %.0f deg/min, its limit is %.0f", feed,
-                                  axis.letter, turning, axis.highest_feed));
+    throw std::runtime_error(
+        fmt::format("--feed {:g}: axis {} would turn with {:.0f} deg/min, its limit is {:.0f}", feed,
+                    axis.letter, turning, axis.highest_feed));
   const auto motion =
       sampled(identification::ball_turn_program(set_, program(), start, turning), turn_decimation);
   auto predicted = identification::predict_servos(motion, set_.radius);
@@ -129,7 +133,7 @@ identification::BallTurn BallTest::turned_by(double way, const std::vector<BallS
   auto turn = identification::turn_between_rests(samples, interval, way);
   if (!turn)
     throw std::runtime_error(
-        text("axis %s has not turned by %.1f deg between two rests", options_.axis.c_str(), way));
+        fmt::format("axis {} has not turned by {:.1f} deg between two rests", options_.axis, way));
   return *std::move(turn);
 }
 

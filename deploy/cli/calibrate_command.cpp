@@ -11,6 +11,7 @@
 #include "calibration_result.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "figures.hpp"
 #include "machine/chain_parameters.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/yaml.hpp"
@@ -27,8 +28,8 @@ int undo(const Common& common) {
   std::map<std::uint32_t, machine::ParameterValue> values;
   for (const auto& [number, value] : last.before) values[number] = {value, ""};
   if (!common.json)
-    print_line("the calibration of %s by %s: %zu parameters get the values of before", last.time.c_str(),
-               last.who.c_str(), values.size());
+    print("the calibration of {} by {}: {} parameters get the values of before", last.time, last.who,
+          values.size());
   return import_parameters(common, values, calibration::undone_by);
 }
 
@@ -91,26 +92,26 @@ int write_change(const CalibrationTarget& target, const Common& common,
   const auto values = calibration::changed_parameters(before, after, target.channel);
   if (!common.json)
     for (const auto& [number, value] : values)
-      print_line("%s %s = %.9g", machine::number_text(number).c_str(),
-                 machine::Catalogue::instance().find(number)->name.c_str(), value.value);
+      print("{} {} = {:.9g}", machine::number_text(number), machine::Catalogue::instance().find(number)->name,
+            value.value);
   if (!target.output.empty()) {
     storage::replace_file(target.output, machine::write_parameter_text(values));
-    if (!common.json) print_line("%s: %zu parameters", target.output.c_str(), values.size());
+    if (!common.json) print("{}: {} parameters", target.output, values.size());
   }
   std::fflush(stdout);
   if (target.write && !values.empty()) {
     if (writer) {
       writer(values);
-      if (!common.json) print_line("written; active after a reset of the channel");
+      if (!common.json) print("written; active after a reset of the channel");
       return 0;
     }
     return import_parameters(common, values, calibration::calibrated_by, common.json);
   }
   if (!common.json && target.output.empty())
-    print_line(
-        target.running
-            ? "nothing written: `trunnion calibrate confirm` writes the result, `discard` gives it up"
-            : "nothing written: --write changes the cluster that runs, --output FILE writes parameters");
+    print("{}",
+          target.running
+              ? "nothing written: `trunnion calibrate confirm` writes the result, `discard` gives it up"
+              : "nothing written: --write changes the cluster that runs, --output FILE writes parameters");
   return 0;
 }
 

@@ -181,10 +181,10 @@ void check_rtcp(const KinematicsOptions& o, const TrueMachine& machine,
   const auto before = summary(result.before), after = summary(result.after);
   out["rtcp_check"] = {{"poses", poses.size()}, {"before", json_of(before)}, {"after", json_of(after)}};
   if (json) return;
-  print_line("RTCP with the sphere over %zu random poses, displacement from the initial pose:", poses.size());
+  print("RTCP with the sphere over {} random poses, displacement from the initial pose:", poses.size());
   for (const auto& [name, s] : {std::pair{"before", &before}, {"after", &after}})
-    print_line("%-7s largest X %.1f, Y %.1f, Z %.1f um; root mean square %.1f um", name, um * s->largest.x(),
-               um * s->largest.y(), um * s->largest.z(), um * s->root_mean_square);
+    print("{:<7} largest X {:.1f}, Y {:.1f}, Z {:.1f} um; root mean square {:.1f} um", name,
+          um * s->largest.x(), um * s->largest.y(), um * s->largest.z(), um * s->root_mean_square);
 }
 
 // That of truth.yaml; without one, an exact probe as the inputs have it.
@@ -263,16 +263,15 @@ void propose_ranges(const calibration::MeasurementMoves& moves,
   if (const auto* fault = std::get_if<std::string>(&plan)) throw std::runtime_error(*fault);
   std::fputs("axes:\n", stdout);
   for (const auto& range : in.axes)
-    print_line("  %c: {start_deg: %.6g, end_deg: %.6g, points: %zu, other_deg: %.6g}", "ABCUVW"[range.angle],
-               range.start, range.end, range.points, range.other);
+    print("  {}: {{start_deg: {:.6g}, end_deg: {:.6g}, points: {}, other_deg: {:.6g}}}",
+          "ABCUVW"[range.angle], range.start, range.end, range.points, range.other);
 }
 
 int detached(const Common& common, std::uint64_t number) {
   if (common.json)
     std::cout << bus::Json{{"measurement", number}}.dump() << "\n";
   else
-    print_line("measurement %llu is under way: trunnion calibrate status, abort, confirm",
-               static_cast<unsigned long long>(number));
+    print("measurement {} is under way: trunnion calibrate status, abort, confirm", number);
   return 0;
 }
 

@@ -35,7 +35,7 @@ struct ManualCheck {
 
 void print_guide(ManualKind kind) {
   const auto& guide = calibration::guide_of(kind);
-  print_line("%s: %s", calibration::to_string(kind), guide.title.c_str());
+  print("{}: {}", calibration::to_string(kind), guide.title);
   std::cout << "Before:\n";
   for (const auto& check : guide.checks) std::cout << "  - " << check << "\n";
   std::cout << "Steps (readings in mm, in a file for --readings):\n";
@@ -49,14 +49,13 @@ void print_guide(ManualKind kind) {
 
 void print_check(const ManualCheck& check, const std::vector<calibration::Angles>& poses,
                  const calibration::ChainParameters& model, const char* when) {
-  print_line("RTCP check at nine poses, %s: displacement of the ball in the workpiece frame, um", when);
+  print("RTCP check at nine poses, {}: displacement of the ball in the workpiece frame, um", when);
   for (std::size_t i = 0; i < poses.size(); ++i)
-    print_line("  %-14s %10.1f %10.1f %10.1f", calibration::pose_name(poses[i], model).c_str(),
-               um * check.displacements[i].x(), um * check.displacements[i].y(),
-               um * check.displacements[i].z());
+    print("  {:<14} {:>10.1f} {:>10.1f} {:>10.1f}", calibration::pose_name(poses[i], model),
+          um * check.displacements[i].x(), um * check.displacements[i].y(), um * check.displacements[i].z());
   for (const auto& line : check.acceptance.lines)
-    print_line("  %-36s %8.1f um, limit %.0f um%s", line.name.c_str(), um * line.value, um * line.limit,
-               line.value <= line.limit ? "" : "  EXCEEDED");
+    print("  {:<36} {:>8.1f} um, limit {:.0f} um{}", line.name, um * line.value, um * line.limit,
+          line.value <= line.limit ? "" : "  EXCEEDED");
 }
 
 bus::Json json_of(const ManualCheck& check) {
@@ -113,7 +112,7 @@ int manual(const ManualOptions& o, const Common& common) {
     out["readings"] = readings;
     out["formulas"] = json_of(model);
     if (!common.json)
-      for (const auto& [name, value] : readings) print_line("reading %-16s %14.4f", name.c_str(), value);
+      for (const auto& [name, value] : readings) print("reading {:<16} {:>14.4f}", name, value);
   }
   if (!o.displacements.empty()) {
     const auto displaced =
@@ -121,7 +120,7 @@ int manual(const ManualOptions& o, const Common& common) {
     const ManualCheck check{displaced, calibration::acceptance_of(*kind, displaced)};
     if (!common.json) print_check(check, poses, model, "as given");
     out["checks"].push_back(json_of(check));
-    if (check.acceptance.accepted() && !common.json) print_line("accepted; no correction");
+    if (check.acceptance.accepted() && !common.json) print("accepted; no correction");
     if (!check.acceptance.accepted()) model = calibration::corrected(*kind, displaced, o.alpha, model);
   }
   truth::Instrument dial({o.noise / um, o.resolution / um, o.seed + 1});

@@ -2,6 +2,8 @@
 // measure circle: the circular test of ISO 230-4 on a cluster, or of a recording
 #include "circle_command.hpp"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
@@ -50,12 +52,12 @@ void check_circle(const CircleOptions& o, const ServoSession& session, const Vec
     const double reach = moves ? o.radius : 0;
     if (centre[i] - reach < axis.low || centre[i] + reach > axis.high)
       throw std::runtime_error(
-          text("axis %c: the circle goes from %.3f to %.3f mm, its travel is %.3f .. "
-               "%.3f: choose another --at or --radius",
-               axis.letter, centre[i] - reach, centre[i] + reach, axis.low, axis.high));
+          fmt::format("axis {}: the circle goes from {:.3f} to {:.3f} mm, its travel is {:.3f} .. "
+                      "{:.3f}: choose another --at or --radius",
+                      axis.letter, centre[i] - reach, centre[i] + reach, axis.low, axis.high));
     if (moves && o.feed > axis.highest_feed)
-      throw std::runtime_error(
-          text("--feed %g: axis %c moves with up to %g mm/min", o.feed, axis.letter, axis.highest_feed));
+      throw std::runtime_error(fmt::format("--feed {:g}: axis {} moves with up to {:g} mm/min", o.feed,
+                                           axis.letter, axis.highest_feed));
   }
 }
 
@@ -71,7 +73,7 @@ void write_readings(const std::string& path, const std::vector<circular_tests::R
   std::string lines = "sense,angle_deg,deviation_um\n";
   for (const auto* readings : {&ccw, &cw})
     for (const auto& r : *readings)
-      lines += text("%s,%.6f,%.6f\n", readings == &ccw ? "ccw" : "cw", r.angle, r.deviation * um);
+      lines += fmt::format("{},{:.6f},{:.6f}\n", readings == &ccw ? "ccw" : "cw", r.angle, r.deviation * um);
   storage::replace_file(path, lines);
 }
 
@@ -138,9 +140,10 @@ int measure_circle(const CircleOptions& o, const Common& common) {
   const auto& turn = turns.front();
   if (!o.output.empty()) write_readings(o.output, measured.ccw, measured.cw);
   if (!o.plot.empty())
-    storage::replace_file(o.plot, ballbar_picture(measured, text("%s, plane %s, R%g F%.0f, %s", name.c_str(),
-                                                                 o.plane.c_str(), circle.radius, feed,
-                                                                 from_truth ? "true machine" : "encoders")));
+    storage::replace_file(
+        o.plot,
+        ballbar_picture(measured, fmt::format("{}, plane {}, R{:g} F{:.0f}, {}", name, o.plane, circle.radius,
+                                              feed, from_truth ? "true machine" : "encoders")));
   if (common.json) {
     auto out = report_json(report);
     out["machine"] = name, out["source"] = o.source;

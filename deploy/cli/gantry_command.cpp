@@ -35,11 +35,11 @@ const char* state_of(const GantryPair& pair, const idl::stream::FeedbackFrame& f
 
 void print_limit(const char* what, double value, const char* unit, double limit, std::uint32_t number) {
   if (limit <= 0)
-    print("  %-22s %12.4f %-7s not supervised (parameter %s)", what, value, unit,
-          machine::number_text(number).c_str());
+    print("  {:<22} {:>12.4f} {:<7} not supervised (parameter {})", what, value, unit,
+          machine::number_text(number));
   else
-    print("  %-22s %12.4f %-7s limit %.4f (parameter %s)%s", what, value, unit, limit,
-          machine::number_text(number).c_str(), std::abs(value) > limit ? "  EXCEEDED" : "");
+    print("  {:<22} {:>12.4f} {:<7} limit {:.4f} (parameter {}){}", what, value, unit, limit,
+          machine::number_text(number), std::abs(value) > limit ? "  EXCEEDED" : "");
 }
 
 bus::Json json_of(double value, const char* unit, double limit, std::uint32_t number) {
@@ -104,20 +104,23 @@ int show_gantry(const GantryOptions& o, const Common& common) {
                {"proposal_mm", offset.proposal}}}});
         continue;
       }
-      print("%s (axis %d) with its slave %s (axis %d): %s", axes[m].name.c_str(), pair.master,
-            axes[s].name.c_str(), pair.slave, state.c_str());
-      print("  %-22s %12.4f mm", axes[m].name.c_str(), feedback.position[m]);
-      print("  %-22s %12.4f mm", axes[s].name.c_str(), shown);
+      print("{} (axis {}) with its slave {} (axis {}): {}", axes[m].name, pair.master, axes[s].name,
+            pair.slave, state);
+      print("  {:<22} {:>12.4f} mm", axes[m].name, feedback.position[m]);
+      print("  {:<22} {:>12.4f} mm", axes[s].name, shown);
       print_limit("synchronization error", d.position, "mm", pair.limit, position_limit);
       print_limit("difference of speeds", d.speed, "mm/min", pair.speed_limit, speed_limit);
       print_limit("difference of currents", d.current, "A", pair.current_limit, current_limit);
-      print(pair.aligns ? "  alignment on: errors up to %.4f mm at the release of the emergency stop (10a062)"
-                        : "  alignment off: the slave keeps its distance (10a062); limit %.4f mm",
-            pair.alignment_limit);
+      if (pair.aligns)
+        print("  alignment on: errors up to {:.4f} mm at the release of the emergency stop (10a062)",
+              pair.alignment_limit);
+      else
+        print("  alignment off: the slave keeps its distance (10a062); limit {:.4f} mm",
+              pair.alignment_limit);
       if (changes)
-        print("  Auto Offset: parameter %s of axis %d %s set to %.6f mm (now %.6f)",
-              machine::number_text(offset.number).c_str(), pair.slave, o.write ? "is" : "would be",
-              offset.proposal, offset.now);
+        print("  Auto Offset: parameter {} of axis {} {} set to {:.6f} mm (now {:.6f})",
+              machine::number_text(offset.number), pair.slave, o.write ? "is" : "would be", offset.proposal,
+              offset.now);
     }
   }
   const bool write = o.write && !request.values.empty() && !cluster.own();
@@ -126,11 +129,11 @@ int show_gantry(const GantryOptions& o, const Common& common) {
   if (common.json) {
     std::cout << bus::text_of(out) << "\n";
   } else if (out["gantries"].empty() && machine::gantry_pairs(p).empty()) {
-    print("%s has no gantry (parameters 010050, 10a100)", cluster.running().machine.c_str());
+    print("{} has no gantry (parameters 010050, 10a100)", cluster.running().machine);
   } else if (write) {
     print("written; it acts after a restart, then home axes with an incremental encoder");
   } else {
-    print("nothing written%s", o.write ? "" : ": --write sets what Auto Offset proposes");
+    print("nothing written{}", o.write ? "" : ": --write sets what Auto Offset proposes");
   }
   return 0;
 }

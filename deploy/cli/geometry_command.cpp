@@ -35,14 +35,14 @@ class Report {
       : options_(options), geometry_(geometry) {}
 
   void text() const {
-    print("%-14s %12s %12s", "measurement", "before", "after");
+    print("{:<14} {:>12} {:>12}", "measurement", "before", "after");
     for (const auto& row : geometry_.rows) {
       const double unit = row.angular ? microradian : micro;
-      print("%-14s %12.2f %12.2f %s (root mean square)", row.name.c_str(), row.before * unit,
-            row.after * unit, row.angular ? "urad" : "um");
+      print("{:<14} {:>12.2f} {:>12.2f} {} (root mean square)", row.name, row.before * unit, row.after * unit,
+            row.angular ? "urad" : "um");
       if (!row.accuracy_before) continue;
       const auto figures = [](const char* when, const truth::PositionAccuracy& a) {
-        print("  ISO 230-2 %-7s A %.2f, E %.2f, R %.2f, B %.2f um", when, a.accuracy * micro,
+        print("  ISO 230-2 {:<7} A {:.2f}, E {:.2f}, R {:.2f}, B {:.2f} um", when, a.accuracy * micro,
               a.systematic * micro, a.repeatability * micro, a.reversal * micro);
       };
       figures("before:", *row.accuracy_before);
@@ -50,16 +50,18 @@ class Report {
     }
     for (const auto& error : geometry_.fit.locations) {
       const double unit = error.angle ? microradian : micro;
-      print("%-14s %12.2f +- %.2f %s (k = 2)", error.name.c_str(), error.value * unit,
+      print("{:<14} {:>12.2f} +- {:.2f} {} (k = 2)", error.name, error.value * unit,
             2 * error.uncertainty * unit, error.angle ? "urad" : "um");
     }
-    print("residuals %.2f times their uncertainty", geometry_.fit.residual);
-    print("%zu random poses, about the mean deviation of the tip:", poses);
+    print("residuals {:.2f} times their uncertainty", geometry_.fit.residual);
+    print("{} random poses, about the mean deviation of the tip:", poses);
     const auto line = [](const char* name, const truth::Spread& b, const truth::Spread& a, double u,
                          double unit, const char* unit_name) {
-      print("%-14s mean %.2f -> %.2f, 95 %% %.2f -> %.2f, maximum %.2f -> %.2f %s; uncertainty %.2f (k = 1)",
-            name, b.mean * unit, a.mean * unit, b.percentile_95 * unit, a.percentile_95 * unit,
-            b.maximum * unit, a.maximum * unit, unit_name, u * unit);
+      print(
+          "{:<14} mean {:.2f} -> {:.2f}, 95 % {:.2f} -> {:.2f}, maximum {:.2f} -> {:.2f} {}; uncertainty "
+          "{:.2f} (k = 1)",
+          name, b.mean * unit, a.mean * unit, b.percentile_95 * unit, a.percentile_95 * unit,
+          b.maximum * unit, a.maximum * unit, unit_name, u * unit);
     };
     line("tip", geometry_.before.tip, geometry_.after.tip, geometry_.fit.tip_uncertainty, micro, "um");
     line("tool axis", geometry_.before.direction, geometry_.after.direction,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // measure: the instruments on a machine with errors
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
@@ -114,12 +116,10 @@ int laser(const MeasureOptions& o, bool json) {
     return 0;
   }
   for (const auto& target : m.targets) {
-    char line[120];
     double up = 0, down = 0;
     for (const double value : target.up) up += value * unit / static_cast<double>(target.up.size());
     for (const double value : target.down) down += value * unit / static_cast<double>(target.down.size());
-    std::snprintf(line, sizeof line, "%12.4f %10.3f %10.3f %s", target.position, up, down, name);
-    std::cout << line << "\n";
+    std::cout << fmt::format("{:>12.4f} {:>10.3f} {:>10.3f} {}\n", target.position, up, down, name);
   }
   for (const auto& [figure, value] : figures) print_figure(figure, value * unit, name);
   return 0;
@@ -145,11 +145,9 @@ int sensor_nest(const MeasureOptions& o, bool json) {
                      {"deviation_um", json_of_vector(r.deviation, um)}});
       continue;
     }
-    char line[160];
-    std::snprintf(line, sizeof line, "%10.3f %9.3f %9.3f %9.3f   %9.3f %9.3f %9.3f", r.angle,
-                  r.sensors[0] * um, r.sensors[1] * um, r.sensors[2] * um, r.deviation[0] * um,
-                  r.deviation[1] * um, r.deviation[2] * um);
-    std::cout << line << "\n";
+    std::cout << fmt::format("{:>10.3f} {:>9.3f} {:>9.3f} {:>9.3f}   {:>9.3f} {:>9.3f} {:>9.3f}\n", r.angle,
+                             r.sensors[0] * um, r.sensors[1] * um, r.sensors[2] * um, r.deviation[0] * um,
+                             r.deviation[1] * um, r.deviation[2] * um);
   }
   if (json)
     std::cout << bus::text_of({{"machine", machine.name}, {"axis", o.axis}, {"readings", out}}) << "\n";

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // servo: tests of the drives of a running cluster, their tuning
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -21,14 +23,10 @@ struct ServoOptions : TestOptions {
 };
 
 std::string limits(const TestFigure& f) {
-  char text[80] = "";
-  if (f.least && f.most)
-    std::snprintf(text, sizeof text, "limits %g .. %g", *f.least, *f.most);
-  else if (f.most)
-    std::snprintf(text, sizeof text, "limit %g", *f.most);
-  else if (f.least)
-    std::snprintf(text, sizeof text, "at least %g", *f.least);
-  return text;
+  if (f.least && f.most) return fmt::format("limits {:g} .. {:g}", *f.least, *f.most);
+  if (f.most) return fmt::format("limit {:g}", *f.most);
+  if (f.least) return fmt::format("at least {:g}", *f.least);
+  return {};
 }
 
 bus::Json json_of(const TestFigure& f) {
@@ -56,9 +54,8 @@ std::vector<servo_analysis::ServoSettings::Value> changes(
 void propose_settings(const ServoSession& session,
                       const std::vector<servo_analysis::ServoSettings::Value>& values) {
   for (const auto& v : values)
-    print("%s %-26s %10.5g -> %10.5g", machine::number_text(v.number).c_str(),
-          machine::Catalogue::instance().find(v.number)->name.c_str(), session.parameters().at(v.number),
-          v.value);
+    print("{} {:<26} {:>10.5g} -> {:>10.5g}", machine::number_text(v.number),
+          machine::Catalogue::instance().find(v.number)->name, session.parameters().at(v.number), v.value);
 }
 
 int run_test(const ServoOptions& o, const Common& common,
@@ -80,23 +77,23 @@ int run_test(const ServoOptions& o, const Common& common,
     return report.reached() ? 0 : 1;
   }
   for (const auto& f : report.figures)
-    print("%-36s %12.4f %-20s %-20s %s", f.name.c_str(), f.value, f.unit.c_str(), limits(f).c_str(),
+    print("{:<36} {:>12.4f} {:<20} {:<20} {}", f.name, f.value, f.unit, limits(f),
           f.least || f.most ? f.reached() ? "pass" : "FAIL" : "");
   for (const auto& note : report.notes) std::cout << note << "\n";
   propose_settings(session, report.proposal);
   if (!report.proposal.empty())
-    print(o.write ? "written; a change of encoders acts after a restart"
-                  : "nothing written: --write sets the parameters");
-  if (!o.plot.empty()) print("%s", o.plot.c_str());
+    print("{}", o.write ? "written; a change of encoders acts after a restart"
+                        : "nothing written: --write sets the parameters");
+  if (!o.plot.empty()) print("{}", o.plot);
   return report.reached() ? 0 : 1;
 }
 
 void say_tuned(const TestedAxis& axis, const servo_analysis::TuningResult& result, double amplitude_um) {
-  print("%c  %s; largest vibration %.2f um of %g um", axis.letter,
+  print("{}  {}; largest vibration {:.2f} um of {:g} um", axis.letter,
         result.reached() ? "every limit is reached" : "NOT every limit is reached",
         result.largest_vibration * 1e3, amplitude_um);
   if (result.settings.position_gain < servo_analysis::least_position_gain)
-    print("%c  position gain %.4g 1/s, the limit of servo test position is %.1f 1/s: stiffen the axis",
+    print("{}  position gain {:.4g} 1/s, the limit of servo test position is {:.1f} 1/s: stiffen the axis",
           axis.letter, result.settings.position_gain, servo_analysis::least_position_gain);
 }
 
@@ -115,8 +112,7 @@ int tune(const ServoOptions& o, const Common& common) {
     const auto* partner = servo_analysis::partner_of(session.axes(), *a);
     auto task = servo_analysis::tuning_task(session.parameters(), *a, partner, o.amplitude_um / 1000);
     if (!task.circles) partner = nullptr;
-    if (!common.json)
-      task.progress = [&](const std::string& line) { print("%c  %s", a->letter, line.c_str()); };
+    if (!common.json) task.progress = [&](const std::string& line) { print("{}  {}", a->letter, line); };
     SessionAxisUnderTest axis(session, *a, partner);
     const auto result = servo_analysis::tune_axis(axis, task);
     const auto changed = changes(session, result.settings.values(a->number));
@@ -149,9 +145,9 @@ int tune(const ServoOptions& o, const Common& common) {
     std::cout << bus::text_of(out) << "\n";
   } else {
     propose_settings(session, values);
-    print(write                 ? "written in one activation"
-          : o.write && !reached ? "nothing written: a limit is not reached"
-                                : "nothing written: --write sets the parameters");
+    print("{}", write                 ? "written in one activation"
+                : o.write && !reached ? "nothing written: a limit is not reached"
+                                      : "nothing written: --write sets the parameters");
   }
   return reached ? 0 : 1;
 }

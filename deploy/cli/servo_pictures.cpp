@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo_pictures.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -122,13 +124,11 @@ std::string roundness_picture(const std::string& title, const servo_analysis::Ro
   for (std::size_t q = 0; q < figures.quadrant_jump.size(); ++q) {
     const auto [s, c] = geometry::sine_cosine(90 * static_cast<double>(q));
     plot.curve({{0.6 * c, 0.6 * s}, {1.4 * c, 1.4 * s}}, "class=\"quadrant\" stroke=\"#57606a\"");
-    char value[40];
-    std::snprintf(value, sizeof value, "%.1f um", figures.quadrant_jump[q] * 1e3);
+    const auto value = fmt::format("{:.1f} um", figures.quadrant_jump[q] * 1e3);
     jumps += report::text(plot.pixel_x(0.45 * c), plot.pixel_y(0.45 * s), value, "text-anchor=\"middle\"");
   }
-  char line[120];
-  std::snprintf(line, sizeof line, "%g um for each circle of the grid; inside: the jumps at the quadrants",
-                division);
+  const auto line =
+      fmt::format("{:g} um for each circle of the grid; inside: the jumps at the quadrants", division);
   return report::document(540, 560,
                           report::text(40, 24, report::escaped(title), title_style) +
                               report::text(40, 42, line) + plot.svg() + jumps);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo_test_parts.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "machine/gantry_pairs.hpp"
 #include "machine/parameter_constants.hpp"
@@ -77,12 +78,9 @@ std::vector<AxisTrace> run_without_feedforward(ServoSession& session, TestReques
 
 double feed_of(const TestedAxis& a, const TestOptions& o, double standard) {
   const double feed = o.feed.value_or(standard);
-  if (!(feed > 0) || feed > a.highest_feed) {
-    char text[120];
-    std::snprintf(text, sizeof text, "feed %g: axis %c moves with up to %g %s", feed, a.letter,
-                  a.highest_feed, a.speed_unit().c_str());
-    throw std::runtime_error(text);
-  }
+  if (!(feed > 0) || feed > a.highest_feed)
+    throw std::runtime_error(fmt::format("feed {:g}: axis {} moves with up to {:g} {}", feed, a.letter,
+                                         a.highest_feed, a.speed_unit()));
   return feed;
 }
 

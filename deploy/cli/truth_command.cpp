@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // truth: where the tool of a machine with errors truly is, without a cluster
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
@@ -26,10 +28,8 @@ struct TruthOptions {
 
 void print_summary(const truth::DeviationSummary& summary) {
   const auto line = [](const char* name, const truth::Spread& spread, double unit, const char* unit_name) {
-    char text[160];
-    std::snprintf(text, sizeof text, "%s: mean %.2f, 95 %% %.2f, maximum %.2f %s", name, spread.mean * unit,
-                  spread.percentile_95 * unit, spread.maximum * unit, unit_name);
-    std::cout << text << "\n";
+    std::cout << fmt::format("{}: mean {:.2f}, 95 % {:.2f}, maximum {:.2f} {}\n", name, spread.mean * unit,
+                             spread.percentile_95 * unit, spread.maximum * unit, unit_name);
   };
   std::cout << summary.count << " random poses in the travel\n";
   line("tip", summary.tip, 1e3, "um");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "truth_picture.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -70,9 +72,8 @@ std::string truth_picture(const truth::PoseReport& report, const truth::MachineO
   const double magnification =
       largest > 1e-9 ? report::round_down(longest_error * std::max(smallest_travel, 1.0) / largest) : 1;
   std::string content = report::text(left, 24, title, "font-size=\"15\" font-weight=\"600\"");
-  char line[120];
-  std::snprintf(line, sizeof line, "deviation of the tip magnified %.0f times; largest in a plane: %.1f um",
-                magnification, largest * 1e3);
+  const auto line = fmt::format("deviation of the tip magnified {:.0f} times; largest in a plane: {:.1f} um",
+                                magnification, largest * 1e3);
   content += report::text(left, 42, line);
   double x = left;
   for (const auto& plane : planes) {
@@ -126,9 +127,8 @@ std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std
   };
   trace(measured.ccw, true_style);
   trace(measured.cw, second_style);
-  char line[160];
-  std::snprintf(line, sizeof line, "red counter-clockwise, blue clockwise; %g um for each circle of the grid",
-                division);
+  const auto line =
+      fmt::format("red counter-clockwise, blue clockwise; {:g} um for each circle of the grid", division);
   return report::document(540, 580,
                           report::text(40, 24, title, "font-size=\"15\" font-weight=\"600\"") +
                               report::text(40, 42, line) + plot.svg());

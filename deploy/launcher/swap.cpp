@@ -16,6 +16,7 @@
 #include "stream/stage_names.hpp"
 #include "stream/stage_service.hpp"
 #include "swap_journal.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::launcher {
 namespace {
@@ -208,7 +209,7 @@ SwapReply Swap::reply(double now) const {
 SwapReply Swap::kept(SwapFailure failure, double now) const {
   auto result = reply(now);
   result.outcome = outcome_of(failure);
-  result.reason = reason(failure).substr(0, 256);
+  result.reason = text::shortened(reason(failure), 256);
   if (failure == SwapFailure::differs) result.difference = difference();
   result.cycle = executed_;
   return result;
@@ -231,7 +232,7 @@ SwapReply Swap::succeeded(double now) {
   try {
     append_swap(options_.state_directory, swap_line(request_, result, side(old_), side(fresh_)));
   } catch (const storage::StorageError& e) {
-    result.reason = std::string(e.what()).substr(0, 256);
+    result.reason = text::shortened(e.what(), 256);
   }
   old_ = std::move(fresh_);
   succeeded_ = true;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/place_cost.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "canonical/axes.hpp"
@@ -19,14 +20,11 @@ constexpr double longest_place = 0.2;  // s
 
 std::string to_text(const CostlyPlace& place) {
   static constexpr const char* names[] = {"velocity", "acceleration", "jerk"};
-  char lines[32], text[192];
-  std::snprintf(lines, sizeof lines, place.last_line == place.first_line ? "%u" : "%u-%u", place.first_line,
-                place.last_line);
-  std::snprintf(text, sizeof text,
-                "%s: %.3f s lost from %.3f s on, axis %c uses %.0f %% of its %s on average", lines,
-                place.lost, place.begin, canonical::axis_letters[place.axis], 100 * place.use,
-                names[static_cast<std::size_t>(place.limit)]);
-  return text;
+  auto lines = std::to_string(place.first_line);
+  if (place.last_line != place.first_line) lines += "-" + std::to_string(place.last_line);
+  return fmt::format("{}: {:.3f} s lost from {:.3f} s on, axis {} uses {:.0f} % of its {} on average", lines,
+                     place.lost, place.begin, canonical::axis_letters[place.axis], 100 * place.use,
+                     names[static_cast<std::size_t>(place.limit)]);
 }
 
 void PlaceCost::add(const motion::AxisValues& machine, const motion::Setpoint& setpoint) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/reference_paths.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace trunnion::analysis {
@@ -115,9 +116,7 @@ ReferencePath single_line() {
 
 ReferencePath corner(double tolerance) {
   ReferencePath path;
-  char name[64];
-  std::snprintf(name, sizeof name, "corner, tolerance %g", tolerance);
-  path.name = name;
+  path.name = fmt::format("corner, tolerance {:g}", tolerance);
   path.machine.limits = reference_limits();
   path.machine.limits.contour_tolerance = tolerance;
   path.program = {line_to({50}, 6000, 1), line_to({50, 50}, 6000, 2)};
@@ -127,9 +126,7 @@ ReferencePath corner(double tolerance) {
 
 ReferencePath circle(double feed) {
   ReferencePath path;
-  char name[64];
-  std::snprintf(name, sizeof name, "circle R10 at %g mm/s", feed);
-  path.name = name;
+  path.name = fmt::format("circle R10 at {:g} mm/s", feed);
   path.machine.limits = reference_limits();
   path.start = {10};
   Command command = line_to({10}, feed * 60, 1);
@@ -203,26 +200,21 @@ std::string program_text(const ReferencePath& path) {
   for (const Command& command : path.program) {
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = moves[i] || command.target[i] != path.start[i];
   }
-  char word[64];
   double feed = -1;
   for (const Command& command : path.program) {
     const bool arc = command.kind == CommandKind::arc;
     text += arc ? (command.arc.clockwise ? "G2" : "G3") : "G1";
     for (std::size_t i = 0; i < language::axis_count; ++i) {
-      if (!moves[i]) continue;
-      std::snprintf(word, sizeof word, " %c%.4f", language::axis_letters[i], command.target[i]);
-      text += word;
+      if (moves[i]) text += fmt::format(" {}{:.4f}", language::axis_letters[i], command.target[i]);
     }
     if (arc) {
       const AxisValues from = &command == &path.program.front() ? path.start : (&command - 1)->target;
-      std::snprintf(word, sizeof word, " I%.4f J%.4f", command.arc.centre[0] - from[0],
-                    command.arc.centre[1] - from[1]);
-      text += word;
+      text +=
+          fmt::format(" I{:.4f} J{:.4f}", command.arc.centre[0] - from[0], command.arc.centre[1] - from[1]);
     }
     if (command.modal.feed != feed) {
       feed = command.modal.feed;
-      std::snprintf(word, sizeof word, " F%g", feed);
-      text += word;
+      text += fmt::format(" F{:g}", feed);
     }
     text += '\n';
   }

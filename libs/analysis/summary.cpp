@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/summary.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <ostream>
 
@@ -96,29 +97,15 @@ void Summary::extend_over_arc(const Motion& motion) {
 }
 
 void Summary::print(std::ostream& out, std::uint64_t blocks) const {
-  char line[160];
-  std::snprintf(line, sizeof line, "blocks   %llu\n", static_cast<unsigned long long>(blocks));
-  out << line;
-  std::snprintf(line, sizeof line, "moves    %llu rapid, %llu lines, %llu arcs\n",
-                static_cast<unsigned long long>(rapids_), static_cast<unsigned long long>(lines_),
-                static_cast<unsigned long long>(arcs_));
-  out << line;
-  std::snprintf(line, sizeof line, "path     %.3f mm rapid, %.3f mm at feed\n", rapid_length_, feed_length_);
-  out << line;
-  std::snprintf(line, sizeof line, "time     %.2f min at feed, %.2f s dwell\n", feed_minutes_,
-                dwell_seconds_);
-  out << line;
-  if (mixed_.moves > 0) {
-    std::snprintf(
-        line, sizeof line,
-        "warning  %llu moves of linear and rotary axes, the first in line %u: %.2f s when F counts both "
-        "(04c919 = 0),",
-        static_cast<unsigned long long>(mixed_.moves), mixed_.line, mixed_.combined_minutes * 60);
-    out << line;
-    std::snprintf(line, sizeof line, " %.2f s when it counts the linear ones (1)\n",
-                  mixed_.linear_minutes * 60);
-    out << line;
-  }
+  out << fmt::format("blocks   {}\n", blocks);
+  out << fmt::format("moves    {} rapid, {} lines, {} arcs\n", rapids_, lines_, arcs_);
+  out << fmt::format("path     {:.3f} mm rapid, {:.3f} mm at feed\n", rapid_length_, feed_length_);
+  out << fmt::format("time     {:.2f} min at feed, {:.2f} s dwell\n", feed_minutes_, dwell_seconds_);
+  if (mixed_.moves > 0)
+    out << fmt::format(
+        "warning  {} moves of linear and rotary axes, the first in line {}: {:.2f} s when F counts both "
+        "(04c919 = 0), {:.2f} s when it counts the linear ones (1)\n",
+        mixed_.moves, mixed_.line, mixed_.combined_minutes * 60, mixed_.linear_minutes * 60);
   if (plane_line_ != 0)
     out << "warning  line " << plane_line_ << ": P" << plane_solution_
         << " of a tilted plane chooses the solution of the rotary axes; programs for Fanuc state the kind of "
@@ -128,9 +115,8 @@ void Summary::print(std::ostream& out, std::uint64_t blocks) const {
   out << (tools_.empty() ? " none\n" : "\n");
   for (std::size_t axis = 0; axis < language::axis_count; ++axis) {
     if (((axes_ >> axis) & 1u) == 0 || !moved_) continue;
-    std::snprintf(line, sizeof line, "%c        %.4f .. %.4f (machine)\n", language::axis_letters[axis],
-                  lowest_[axis], highest_[axis]);
-    out << line;
+    out << fmt::format("{}        {:.4f} .. {:.4f} (machine)\n", language::axis_letters[axis], lowest_[axis],
+                       highest_[axis]);
   }
 }
 

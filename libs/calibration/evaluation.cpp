@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/evaluation.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "calibration/measured_centre.hpp"
@@ -16,13 +17,6 @@ using metrology::FitOptions;
 
 constexpr double least_known_direction = 1e-3;
 constexpr double advised_direction = 5e-5;  // A650, page 27
-
-template <class... Values>
-std::string line(const char* format, Values... values) {
-  char text[300];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 // The same place of every axis: 270 deg is -90 deg.
 bool same_pose(const Angles& a, const Angles& b) {
@@ -123,8 +117,8 @@ class Evaluation {
                                                                   turned[i].centre));
         throw std::runtime_error(
             std::string("axis ") + "ABCUVW"[range.angle] + ": " + metrology::to_string(*error) +
-            line(" (triangle %.2f deg, least %.6g deg; swept %.6g deg, least %.6g deg)", angle,
-                 in_.least_triangle_angle, range.end - range.start, in_.least_swept_angle));
+            fmt::format(" (triangle {:.2f} deg, least {:.6g} deg; swept {:.6g} deg, least {:.6g} deg)", angle,
+                        in_.least_triangle_angle, range.end - range.start, in_.least_swept_angle));
       }
       axis.circle = std::get<metrology::AxisFit>(fit);
       result_.axes.push_back(axis);
@@ -175,10 +169,9 @@ class Evaluation {
       for (const auto& axis : real.axes)
         if (const double known = axis.direction.expanded.maxCoeff(); !(known <= least_known_direction))
           throw std::runtime_error(
-              line("the direction of %c is known to %.6f only (95 %%), at least %.4f is needed to write it: "
-                   "a larger "
-                   "circle, more points, or directions: report",
-                   "ABCUVW"[axis.angle], known, least_known_direction));
+              fmt::format("the direction of {} is known to {:.6f} only (95 %), at least {:.4f} is needed to "
+                          "write it: a larger circle, more points, or directions: report",
+                          "ABCUVW"[axis.angle], known, least_known_direction));
     // Without the directions the inclination of an axis is in the residuals; it is no error of the touches.
     if (real.freedom > 0)
       options.touch_deviation = real.touch_deviation, options.touch_freedom = real.freedom;
@@ -232,10 +225,10 @@ class Evaluation {
     const Vec3 offset = reference->zero_offset - in_.zero_offset;
     if (!(offset.cwiseAbs().maxCoeff() <= 1e-6))
       throw std::runtime_error(
-          line("reference adapt: the work offset %.4f %.4f %.4f mm is not the one of the reference, %.4f "
-               "%.4f %.4f mm",
-               in_.zero_offset.x(), in_.zero_offset.y(), in_.zero_offset.z(), reference->zero_offset.x(),
-               reference->zero_offset.y(), reference->zero_offset.z()));
+          fmt::format("reference adapt: the work offset {:.4f} {:.4f} {:.4f} mm is not the one of the "
+                      "reference, {:.4f} {:.4f} {:.4f} mm",
+                      in_.zero_offset.x(), in_.zero_offset.y(), in_.zero_offset.z(),
+                      reference->zero_offset.x(), reference->zero_offset.y(), reference->zero_offset.z()));
     result_.after.origin += reference->sphere - result_.sphere;
     result_.sphere = reference->sphere;
   }
@@ -245,16 +238,15 @@ class Evaluation {
       const double moved = (change.after - change.before).norm();
       result_.largest_change = std::max(result_.largest_change, moved);
       if (in_.vector_tolerance && moved > *in_.vector_tolerance && result_.tolerance_alarm.empty())
-        result_.tolerance_alarm = line("the offset vector of %s changes by %.4f mm: the tolerance is %.4f mm",
-                                       change.name.c_str(), moved, *in_.vector_tolerance);
+        result_.tolerance_alarm =
+            fmt::format("the offset vector of {} changes by {:.4f} mm: the tolerance is {:.4f} mm",
+                        change.name, moved, *in_.vector_tolerance);
       const Vec3 beside = change.direction_after - change.direction_before;
       if (beside.cwiseAbs().maxCoeff() > advised_direction)
-        result_.warnings.push_back(
-            line("axis %s points %.6f %.6f %.6f: more than 0.00005 beside its ideal direction; correct the "
-                 "machine "
-                 "mechanically",
-                 change.name.c_str(), change.direction_after.x(), change.direction_after.y(),
-                 change.direction_after.z()));
+        result_.warnings.push_back(fmt::format(
+            "axis {} points {:.6f} {:.6f} {:.6f}: more than 0.00005 beside its ideal direction; correct the "
+            "machine mechanically",
+            change.name, change.direction_after.x(), change.direction_after.y(), change.direction_after.z()));
     }
     for (const auto& name : result_.not_observed)
       result_.warnings.push_back("these poses do not show " + name + "; it stays as it is");

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/measured_centre.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 namespace trunnion::calibration {
 namespace {
@@ -12,10 +14,8 @@ namespace {
 constexpr double ball_tolerance = 0.5;
 
 template <class... Values>
-[[noreturn]] void fail(const std::string& pose, const char* format, Values... values) {
-  char text[300];
-  std::snprintf(text, sizeof text, format, values...);
-  throw std::runtime_error("pose " + pose + text);
+[[noreturn]] void fail(const std::string& pose, fmt::format_string<Values...> format, Values&&... values) {
+  throw std::runtime_error("pose " + pose + fmt::format(format, std::forward<Values>(values)...));
 }
 
 metrology::SphereFit sphere_of(const std::vector<Vec3>& tips, std::optional<double> radius,
@@ -40,21 +40,21 @@ MeasuredCentre measured_centre(const MeasurementInputs& in, const MeasuredMachin
     ball_diameter = 2 * free.radius - in.sphere_diameter;
     if (!(std::abs(ball_diameter - in.ball_diameter) <= ball_tolerance))
       fail(name,
-           ": the ball's effective diameter is %.4f mm, given is %.4f mm: they may differ by %.1f mm; check "
-           "probe and sphere",
+           ": the ball's effective diameter is {:.4f} mm, given is {:.4f} mm: they may differ by {:.1f} mm; "
+           "check probe and sphere",
            ball_diameter, in.ball_diameter, ball_tolerance);
   }
   MeasuredCentre out;
   out.diameter = 2 * free.radius - ball_diameter;
   out.radius_cofactor = free.radius_cofactor;
   if (!(std::abs(out.diameter - in.sphere_diameter) <= in.diameter_tolerance))
-    fail(name, ": measured diameter of the sphere %.4f mm, given %.4f mm: the tolerance is %.4f mm",
+    fail(name, ": measured diameter of the sphere {:.4f} mm, given {:.4f} mm: the tolerance is {:.4f} mm",
          out.diameter, in.sphere_diameter, in.diameter_tolerance);
   out.fit = sphere_of(tips, (in.sphere_diameter + ball_diameter) / 2, name);
   const double away = (out.fit.centre - in.sphere).norm();
   if (!(away <= in.confidence_range))
     fail(name,
-         ": the centre of the sphere is %.4f mm from the expected one: the confidence range is %.4f mm; "
+         ": the centre of the sphere is {:.4f} mm from the expected one: the confidence range is {:.4f} mm; "
          "reset",
          away, in.confidence_range);
   return out;

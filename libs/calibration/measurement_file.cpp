@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/measurement_file.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "machine/yaml.hpp"
 #include "truth/truth_reader.hpp"
@@ -221,10 +222,8 @@ ReferenceMeasurement parse_reference(const std::string& text, const std::string&
 
 std::string text_of(const ReferenceMeasurement& reference) {
   const auto &s = reference.sphere, &z = reference.zero_offset;
-  char text[300];
-  std::snprintf(text, sizeof text, "{sphere_mm: [%.9f, %.9f, %.9f], zero_offset_mm: [%.9f, %.9f, %.9f]}\n",
-                s.x(), s.y(), s.z(), z.x(), z.y(), z.z());
-  return text;
+  return fmt::format("{{sphere_mm: [{:.9f}, {:.9f}, {:.9f}], zero_offset_mm: [{:.9f}, {:.9f}, {:.9f}]}}\n",
+                     s.x(), s.y(), s.z(), z.x(), z.y(), z.z());
 }
 
 }  // namespace trunnion::calibration

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/measurement_poses.hpp"
 
+#include <fmt/core.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdio>
 
 #include "geometry/angle.hpp"
 
@@ -100,12 +101,11 @@ class Planner {
       const double clear = std::min(clearance(directions, shaft, in_), shaft_clearance);
       if (clear > best + 1e-9) best = clear, pose.directions = directions;
     }
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  ": the probe would meet the shaft of the sphere by %.2f mm at every angle of the touches; "
-                  "choose a smaller range or another shaft",
-                  -best);
-    if (best < 0) fail(pose, text);
+    if (best < 0)
+      fail(pose,
+           fmt::format(": the probe would meet the shaft of the sphere by {:.2f} mm at every angle of the "
+                       "touches; choose a smaller range or another shaft",
+                       -best));
   }
 
   void check_travel(const PlannedPose& pose) {
@@ -117,10 +117,8 @@ class Planner {
       for (const double side : {-reach, reach}) {
         const double position = centre[i] + side;
         if (position >= travel.low && position <= travel.high) continue;
-        char text[200];
-        std::snprintf(text, sizeof text, ": %c %.3f mm is not within its travel %.10g .. %.10g mm", "XYZ"[i],
-                      position, travel.low, travel.high);
-        fail(pose, text);
+        fail(pose, fmt::format(": {} {:.3f} mm is not within its travel {:.10g} .. {:.10g} mm", "XYZ"[i],
+                               position, travel.low, travel.high));
         return;
       }
     }
@@ -152,10 +150,7 @@ std::variant<PlannedPose, std::string> plan_pose(const MeasurementInputs& inputs
 std::string pose_name(const Angles& angles, const ChainParameters& chain) {
   std::string text;
   for (const auto& vector : metrology::root_vectors(chain)) {
-    char word[40];
-    std::snprintf(word, sizeof word, "%s%c%.6g", text.empty() ? "" : " ", "ABCUVW"[vector.angle],
-                  angles[vector.angle]);
-    text += word;
+    text += fmt::format("{}{}{:.6g}", text.empty() ? "" : " ", "ABCUVW"[vector.angle], angles[vector.angle]);
   }
   return text;
 }

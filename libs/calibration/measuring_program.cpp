@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/measuring_program.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "canonical/axes.hpp"
@@ -19,13 +20,6 @@ constexpr double arc_step = 10;               // deg: an arc around the sphere i
 constexpr double second_retract = 1;          // mm, between first and second touch
 constexpr double largest_inverse_time = 1e6;  // 1/min: a way of the last digits only
 
-template <class... Values>
-std::string words(const char* format, Values... values) {
-  char text[300];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
 class Writer {
  public:
   Writer(const MeasurementInputs& in, const MeasuredMachine& machine) : in_(in) {
@@ -36,23 +30,24 @@ class Writer {
 
   void begin(const std::string& title, const Way& way) {
     text_ += "(" + title + ")\n";
-    text_ += words("#%u=0\n", serial_variable);
+    text_ += fmt::format("#{}=0\n", serial_variable);
     text_ += "G21 G17 G90 G94 G40 G80 G49 G54 G61\n";
-    text_ += words("M%u\n", in_.probe_on);
+    text_ += fmt::format("M{}\n", in_.probe_on);
     // By their time: F of a way that moves and turns would count millimetres and degrees together.
     if (way.size() > 1) text_ += "G93\n";
     for (std::size_t i = 1; i < way.size(); ++i) go(way[i - 1], way[i]);
     if (way.size() > 1) text_ += "G94\n";
   }
   std::string end(const ProgramEnd& end) {
-    text_ += words("#%u=%u\n", serial_variable, end.serial);
-    text_ += words("M%u\n%s\n", in_.probe_off, end.code == EndsWith::m30 ? "M30" : "M99");
+    text_ += fmt::format("#{}={}\n", serial_variable, end.serial);
+    text_ += fmt::format("M{}\n{}\n", in_.probe_off, end.code == EndsWith::m30 ? "M30" : "M99");
     return std::move(text_);
   }
 
   // Straight to X, Y, Z.
   void go(const Vec3& linear, double feed) {
-    text_ += words("G53 G1 X%.6f Y%.6f Z%.6f F%.3f\n", linear.x(), linear.y(), linear.z(), feed);
+    text_ +=
+        fmt::format("G53 G1 X{:.6f} Y{:.6f} Z{:.6f} F{:.3f}\n", linear.x(), linear.y(), linear.z(), feed);
   }
   // min, with the linear axes at the positioning feed or the fastest rotary axis at its own.
   double duration(const AxisPosition& from, const AxisPosition& to) const {
@@ -77,20 +72,22 @@ class Writer {
       text_ += "G53 G1";
       for (std::size_t i = 0; i < next.size(); ++i)
         if (present_[i])
-          text_ += words(" %c%.6f", axis_letters[i], canonical::rotary_word(ways_[i], next[i], last[i]));
-      text_ += words(" F%.6f\n", std::min(parts / minutes, largest_inverse_time));
+          text_ +=
+              fmt::format(" {}{:.6f}", axis_letters[i], canonical::rotary_word(ways_[i], next[i], last[i]));
+      text_ += fmt::format(" F{:.6f}\n", std::min(parts / minutes, largest_inverse_time));
       last = next;
     }
   }
 
   // From the end of the measuring path against `direction`; the result is touch `number`.
   void touch(const Vec3& direction, std::size_t number) {
-    text_ += words("G65 P9801 X%.9f Y%.9f Z%.9f D%.6f J%.3f K%.3f R%.6f\n", -direction.x(), -direction.y(),
-                   -direction.z(), standoff(in_) + in_.measuring_path, in_.first_touch_feed,
-                   in_.measuring_feed, std::min(second_retract, in_.measuring_path / 2));
+    text_ +=
+        fmt::format("G65 P9801 X{:.9f} Y{:.9f} Z{:.9f} D{:.6f} J{:.3f} K{:.3f} R{:.6f}\n", -direction.x(),
+                    -direction.y(), -direction.z(), standoff(in_) + in_.measuring_path, in_.first_touch_feed,
+                    in_.measuring_feed, std::min(second_retract, in_.measuring_path / 2));
     for (unsigned i = 0; i < 3; ++i)
-      text_ += words("#%u=#%u-#%u+#%u\n", first_variable + 3 * static_cast<unsigned>(number) + i, 141 + i,
-                     5041 + i, 5021 + i);
+      text_ += fmt::format("#{}=#{}-#{}+#{}\n", first_variable + 3 * static_cast<unsigned>(number) + i,
+                           141 + i, 5041 + i, 5021 + i);
   }
 
  private:
@@ -237,7 +234,8 @@ std::vector<Vec3> measured_positions(const MacroVariables& variables, std::size_
       const auto number = first_variable + 3 * static_cast<std::uint32_t>(i) + k;
       const auto found = variables.find(number);
       if (found == variables.end())
-        throw std::runtime_error(words("macro variable #%u is vacant: touch %zu is missing", number, i + 1));
+        throw std::runtime_error(
+            fmt::format("macro variable #{} is vacant: touch {} is missing", number, i + 1));
       position[k] = found->second;
     }
   }

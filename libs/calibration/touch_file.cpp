@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "canonical/axes.hpp"
@@ -96,15 +97,9 @@ std::string text_of(const std::vector<TouchedPose>& poses, const ChainParameters
   for (const auto& pose : poses)
     for (const auto& position : pose.positions) {
       const auto vectors = metrology::root_vectors(chain);
-      for (const auto& vector : vectors) {
-        char word[40];
-        const int length = std::snprintf(word, sizeof word, "%c%.12g ", axis_letters[3 + vector.angle],
-                                         pose.angles[vector.angle]);
-        text.append(word, static_cast<std::size_t>(length));
-      }
-      char words[120];
-      std::snprintf(words, sizeof words, "X%.6f Y%.6f Z%.6f\n", position.x(), position.y(), position.z());
-      text += words;
+      for (const auto& vector : vectors)
+        text += fmt::format("{}{:.12g} ", axis_letters[3 + vector.angle], pose.angles[vector.angle]);
+      text += fmt::format("X{:.6f} Y{:.6f} Z{:.6f}\n", position.x(), position.y(), position.z());
     }
   return text;
 }

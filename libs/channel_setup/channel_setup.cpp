@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "channel_setup/channel_setup.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "compensation/channel_compensation.hpp"
 #include "machine/alarm_constants.hpp"
@@ -373,10 +374,8 @@ std::string ChannelSetup::travel_error(const AxisBox& box, const AxisValues& off
 
 std::string ChannelSetup::words_of(const language::TravelBreach& breach, std::uint32_t line) const {
   const Travel& travel = travel_[breach.axis];
-  char text[160];
-  std::snprintf(text, sizeof text, "%u: %c would go to %.4f, its travel is %.4f .. %.4f", line,
-                language::axis_letters[breach.axis], breach.position, travel.negative, travel.positive);
-  return text;
+  return fmt::format("{}: {} would go to {:.4f}, its travel is {:.4f} .. {:.4f}", line,
+                     language::axis_letters[breach.axis], breach.position, travel.negative, travel.positive);
 }
 
 std::optional<language::TravelBreach> ChannelSetup::vector_breach(const AxisValues& start,

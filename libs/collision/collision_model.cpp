@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "collision/collision_model.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "collision/body_pairs.hpp"
 
@@ -91,12 +92,10 @@ void CollisionModel::note(const AxisPosition& position, std::size_t at, double w
 }
 
 std::string CollisionModel::text_of(const PairDistance& pair) const {
-  char text[200];
-  const auto& all = bodies();
-  std::snprintf(text, sizeof text,
-                pair.distance >= 0 ? "'%s' and '%s' are %.3f mm apart" : "'%s' and '%s' overlap by %.3f mm",
-                all[pair.first].name.c_str(), all[pair.second].name.c_str(), std::abs(pair.distance));
-  return text;
+  const auto &first = bodies()[pair.first].name, &second = bodies()[pair.second].name;
+  const double distance = std::abs(pair.distance);
+  return pair.distance >= 0 ? fmt::format("'{}' and '{}' are {:.3f} mm apart", first, second, distance)
+                            : fmt::format("'{}' and '{}' overlap by {:.3f} mm", first, second, distance);
 }
 
 }  // namespace trunnion::collision

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "collision/machine_links.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 
 #include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
@@ -112,9 +113,7 @@ std::string text_of(const AxisPosition& position, const Travel& travel) {
   std::string text;
   for (std::size_t i = 0; i < position.size(); ++i) {
     if (!travel[i].present) continue;
-    char word[40];
-    std::snprintf(word, sizeof word, "%s%c%.3f", text.empty() ? "" : " ", axis_letters[i], position[i]);
-    text += word;
+    text += fmt::format("{}{}{:.3f}", text.empty() ? "" : " ", axis_letters[i], position[i]);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "collision/way_search.hpp"
 
+#include <fmt/core.h>
 #include <ompl/base/PlannerData.h>
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/SpaceInformation.h>
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "canonical/axes.hpp"
 #include "truth/random_source.hpp"
@@ -104,12 +104,9 @@ class Search {
  private:
   std::string fault_at(const AxisPosition& position, const char* name) const {
     for (std::size_t i = 0; i < axes_.size(); ++i)
-      if (position[axes_[i]] < low_[i] - same || position[axes_[i]] > high_[i] + same) {
-        char text[160];
-        std::snprintf(text, sizeof text, "%s: %c %.4f is not within its travel %.10g .. %.10g", name,
-                      canonical::axis_letters[axes_[i]], position[axes_[i]], low_[i], high_[i]);
-        return text;
-      }
+      if (position[axes_[i]] < low_[i] - same || position[axes_[i]] > high_[i] + same)
+        return fmt::format("{}: {} {:.4f} is not within its travel {:.10g} .. {:.10g}", name,
+                           canonical::axis_letters[axes_[i]], position[axes_[i]], low_[i], high_[i]);
     const auto contact = model_.first_contact(position, position);
     if (!contact) return "";
     return std::string(name) + ": " + model_.text_of(contact->pair) + " at " + text_of(position, travel_);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "collision_guard/collision_guard.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
@@ -207,12 +208,9 @@ std::optional<Obstacle> CollisionGuard::obstacle(const AxisValues& from, const A
 std::string CollisionGuard::words() const {
   const auto& contact = check_->contact();
   const auto& bodies = model_->bodies();
-  char text[240];
-  std::snprintf(text, sizeof text,
-                contact.pair.distance >= 0 ? "'%s' and '%s' would be %.3f mm apart (clearance %g mm) at "
-                                           : "'%s' and '%s' would overlap by %.3f mm (clearance %g mm) at ",
-                bodies[contact.pair.first].name.c_str(), bodies[contact.pair.second].name.c_str(),
-                std::abs(contact.pair.distance), model_->clearance());
+  const double distance = std::abs(contact.pair.distance);
+  const auto near = contact.pair.distance >= 0 ? fmt::format("be {:.3f} mm apart", distance)
+                                               : fmt::format("overlap by {:.3f} mm", distance);
   auto linear = travel_, rotary = travel_;
   bool any_rotary = false;
   for (std::size_t i = 0; i < travel_.size(); ++i) {
@@ -220,7 +218,9 @@ std::string CollisionGuard::words() const {
     (turns ? linear : rotary)[i].present = false;
     any_rotary = any_rotary || (turns && travel_[i].present);
   }
-  std::string out = text + collision::text_of(contact.position, linear) + " mm";
+  auto out = fmt::format("'{}' and '{}' would {} (clearance {:g} mm) at {} mm",
+                         bodies[contact.pair.first].name, bodies[contact.pair.second].name, near,
+                         model_->clearance(), collision::text_of(contact.position, linear));
   if (any_rotary) out += ", " + collision::text_of(contact.position, rotary) + " deg";
   return out;
 }

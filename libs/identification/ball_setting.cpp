@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "identification/ball_setting.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include "text/printed.hpp"
 
 namespace trunnion::identification {
 namespace {
 
-using text::printed;
 using truth::Vec3;
 
 constexpr double positioning_feed = 3000;  // mm/min or deg/min
@@ -46,20 +45,20 @@ std::string opening(const TurnedBall& set, const BallProgram& program, double st
   const Vec3 place = place_at(set, start);
   std::string lines = "G17 G90 G94\nG53 G1";
   for (const auto& a : program.axes)
-    if (const auto index = rotary_index(a)) lines += printed(" %c%.6f", a.letter, angles[*index]);
-  lines += printed(" F%g\nG53 G1 X%.6f Y%.6f Z%.6f F%g\nG43.4 H%u\nG4 P500\n", positioning_feed, place[0],
-                   place[1], place[2], positioning_feed, program.tool);
+    if (const auto index = rotary_index(a)) lines += fmt::format(" {}{:.6f}", a.letter, angles[*index]);
+  lines += fmt::format(" F{:g}\nG53 G1 X{:.6f} Y{:.6f} Z{:.6f} F{:g}\nG43.4 H{}\nG4 P500\n", positioning_feed,
+                       place[0], place[1], place[2], positioning_feed, program.tool);
   return lines;
 }
 
 std::string closing(const BallProgram& program) {
   std::string lines = "G4 P500\nG49\nG53 G1";
   for (const auto& a : program.axes)
-    if (is_linear(a)) lines += printed(" %c%.6f", a.letter, a.place);
-  lines += printed(" F%g\nG53 G1", positioning_feed);
+    if (is_linear(a)) lines += fmt::format(" {}{:.6f}", a.letter, a.place);
+  lines += fmt::format(" F{:g}\nG53 G1", positioning_feed);
   for (const auto& a : program.axes)
-    if (rotary_index(a)) lines += printed(" %c%.6f", a.letter, a.place);
-  return lines + printed(" F%g\nM30\n", positioning_feed);
+    if (rotary_index(a)) lines += fmt::format(" {}{:.6f}", a.letter, a.place);
+  return lines + fmt::format(" F{:g}\nM30\n", positioning_feed);
 }
 
 }  // namespace
@@ -103,8 +102,8 @@ std::optional<metrology::AxisError> place_ball(TurnedBall& set, const WantedBall
 std::string ball_turn_program(const TurnedBall& set, const BallProgram& program, double start, double feed) {
   const char letter = canonical::axis_letters[set.axis];
   return opening(set, program, start) +
-         printed("G91 G1 %c%.6f F%.6f\nG4 P500\nG1 %c%.6f\nG90\n", letter, set.sweep, feed, letter,
-                 -set.sweep) +
+         fmt::format("G91 G1 {}{:.6f} F{:.6f}\nG4 P500\nG1 {}{:.6f}\nG90\n", letter, set.sweep, feed, letter,
+                     -set.sweep) +
          closing(program);
 }
 
@@ -113,8 +112,8 @@ std::string ball_stops_program(const TurnedBall& set, const BallProgram& program
   const char letter = canonical::axis_letters[set.axis];
   auto lines = opening(set, program, start) + "G91\n";
   for (std::size_t k = 0; k < stops; ++k)
-    lines += printed("G1 %c%.6f F%g\nG4 P400\n", letter,
-                     k == 0 ? 0.0 : set.sweep / static_cast<double>(stops), positioning_feed);
+    lines += fmt::format("G1 {}{:.6f} F{:g}\nG4 P400\n", letter,
+                         k == 0 ? 0.0 : set.sweep / static_cast<double>(stops), positioning_feed);
   return lines + "G90\n" + closing(program);
 }
 

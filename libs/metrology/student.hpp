@@ -6,10 +6,6 @@
 
 namespace trunnion::metrology {
 
-/// Probability that a variable of Student's distribution with `freedom` degrees of freedom (1 or more) is
-/// within -t .. t (Abramowitz and Stegun 26.7.3 and 26.7.4).
-double student_within(double t, std::size_t freedom);
-
 /// The factor by which a standard uncertainty is multiplied so that, with the probability `confidence` (0 to
 /// 1, exclusive), all of `values` values are within their expanded uncertainties at the same time
 /// (Bonferroni; values of one measurement are correlated, so the probability is a little higher). `freedom`

@@ -7,6 +7,7 @@
 
 #include "machine/alarm_constants.hpp"
 #include "machine/roles.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::parameters {
 namespace {
@@ -348,7 +349,7 @@ idl::parameters::ParameterReply ParameterStore::apply(const ParameterRequest& re
       reply.reason = e.what();
     }
   }
-  if (reply.reason.size() > 256) reply.reason.resize(256);
+  reply.reason = text::shortened(std::move(reply.reason), 256);
   reply.revision = active_.revision;
   reply.pending = static_cast<std::uint32_t>(waiting(active_, state_.overrides).size());
   return reply;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report in words and as JSON.
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "report/report.hpp"
@@ -10,39 +10,28 @@
 namespace trunnion::report {
 namespace {
 
-std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
-std::string format(const char* pattern, ...) {
-  char text[512];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return text;
-}
-
-std::string row(const char* label, const std::string& value) {
-  return format("  %-28s ", label) + value + "\n";
+std::string row(const std::string& label, const std::string& value) {
+  return fmt::format("  {:<28} {}\n", label, value);
 }
 
 // Millimetres as micrometres, from nanometres to where they are millimetres again.
 std::string length(double mm) {
   if (mm < 1e-9) return "below 0.001 nm";
-  if (mm < 1e-5) return format("%.3g nm", mm * 1e6);
-  if (mm < 1) return format("%.3f um", mm * 1e3);
-  return format("%.4f mm", mm);
+  if (mm < 1e-5) return fmt::format("{:.3g} nm", mm * 1e6);
+  if (mm < 1) return fmt::format("{:.3f} um", mm * 1e3);
+  return fmt::format("{:.4f} mm", mm);
 }
 
 std::string seconds(double s) {
-  if (std::abs(s) < 1e-3) return format("%.1f us", s * 1e6);
-  if (std::abs(s) < 1) return format("%.3f ms", s * 1e3);
-  return format("%.3f s", s);
+  if (std::abs(s) < 1e-3) return fmt::format("{:.1f} us", s * 1e6);
+  if (std::abs(s) < 1) return fmt::format("{:.3f} ms", s * 1e3);
+  return fmt::format("{:.3f} s", s);
 }
 
 std::string contour(const ContourError& error) {
   if (error.cycles == 0) return "no cycles";
   return "max " + length(error.largest) + ", RMS " + length(error.rms) +
-         format(" over %llu cycles (largest in line %u)", static_cast<unsigned long long>(error.cycles),
-                error.line);
+         fmt::format(" over {} cycles (largest in line {})", error.cycles, error.line);
 }
 
 nlohmann::ordered_json contour_json(const ContourError& error) {
@@ -53,9 +42,7 @@ nlohmann::ordered_json contour_json(const ContourError& error) {
           {"max_at_line", error.line}};
 }
 
-std::string hash_text(const Report& report) {
-  return format("%016llx", static_cast<unsigned long long>(report.command_hash));
-}
+std::string hash_text(const Report& report) { return fmt::format("{:016x}", report.command_hash); }
 
 std::uint64_t lost_in_all(const Report& report) {
   std::uint64_t sum = 0;
@@ -69,14 +56,13 @@ std::string terminal_text(const Report& report) {
   std::string text =
       "Program " + report.program + (report.machine.empty() ? "" : " on " + report.machine) + "\n";
   if (!report.problem.empty()) text += row("PROBLEM", report.problem);
-  text += row("Programmed", format("%zu commands, %.1f mm at feed", report.programmed.commands,
-                                   report.programmed.feed_length));
-  text += row("Executed", format("%llu of %llu cycles of %.3f ms: %.3f s of motion",
-                                 static_cast<unsigned long long>(report.executed),
-                                 static_cast<unsigned long long>(report.cycles), report.period * 1e3,
-                                 static_cast<double>(report.cycles) * report.period));
+  text += row("Programmed", fmt::format("{} commands, {:.1f} mm at feed", report.programmed.commands,
+                                        report.programmed.feed_length));
+  text += row("Executed",
+              fmt::format("{} of {} cycles of {:.3f} ms: {:.3f} s of motion", report.executed, report.cycles,
+                          report.period * 1e3, static_cast<double>(report.cycles) * report.period));
   text += row("Feed of the tool tip",
-              format("mean %.0f mm/min, max %.0f mm/min", report.mean_feed, report.largest_feed));
+              fmt::format("mean {:.0f} mm/min, max {:.0f} mm/min", report.mean_feed, report.largest_feed));
   text += row("Contour error, commands", contour(report.commanded_feed));
   text += row("Contour error, encoders", contour(report.actual_feed));
   if (report.true_feed.cycles > 0) text += row("Contour error, true tip", contour(report.true_feed));
@@ -90,18 +76,15 @@ std::string terminal_text(const Report& report) {
                   ? "no axis frames"
                   : "max " + length(report.residual_largest) + ", RMS " + length(report.residual_rms));
   if (report.speed > 0)
-    text +=
-        row("Speed", format("%.2f x real time (%.3f s of wall clock)", report.speed, report.wall_seconds));
-  text += row("Cycles lost", format("%llu (batches late: %llu, from replicas: %llu)",
-                                    static_cast<unsigned long long>(lost_in_all(report)),
-                                    static_cast<unsigned long long>(report.late_frames),
-                                    static_cast<unsigned long long>(report.repeated_frames)));
-  text += row("Drive starved", format("%llu periods", static_cast<unsigned long long>(report.starved)));
+    text += row("Speed", fmt::format("{:.2f} x real time ({:.3f} s of wall clock)", report.speed,
+                                     report.wall_seconds));
+  text += row("Cycles lost", fmt::format("{} (batches late: {}, from replicas: {})", lost_in_all(report),
+                                         report.late_frames, report.repeated_frames));
+  text += row("Drive starved", fmt::format("{} periods", report.starved));
   for (const auto& latency : report.latencies) {
     if (latency.frames == 0) continue;
-    text += row(("Latency to " + latency.to).c_str(), "median " + seconds(latency.median) + ", p99 " +
-                                                          seconds(latency.p99) + ", max " +
-                                                          seconds(latency.largest));
+    text += row("Latency to " + latency.to, "median " + seconds(latency.median) + ", p99 " +
+                                                seconds(latency.p99) + ", max " + seconds(latency.largest));
   }
   text += row("Drive commands, FNV-1a", hash_text(report));
   return text;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/stream_timing.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "bus/json.hpp"
 
@@ -20,12 +21,7 @@ const std::vector<double>& edges() {
 }
 
 std::string edge_text(double seconds) {
-  char text[32];
-  if (seconds < 1e-3)
-    std::snprintf(text, sizeof text, "%.0fus", seconds * 1e6);
-  else
-    std::snprintf(text, sizeof text, "%.0fms", seconds * 1e3);
-  return text;
+  return seconds < 1e-3 ? fmt::format("{:.0f}us", seconds * 1e6) : fmt::format("{:.0f}ms", seconds * 1e3);
 }
 
 double seconds_between(std::int64_t from, std::int64_t to) { return 1e-9 * static_cast<double>(to - from); }
@@ -108,30 +104,24 @@ std::uint64_t StreamTiming::usable_lead() const {
 
 std::string terminal_text(const StreamTiming& timing) {
   std::string out;
-  char text[160];
-  const auto line = [&](const char* format, auto... values) {
-    std::snprintf(text, sizeof text, format, values...);
-    out += text;
-  };
-  line("%-14s %9s %9s %9s %9s  counts below", "delay in us", "median", "99 %", "99.9 %", "maximum");
-  for (const double edge : edges()) line(" %7s", edge_text(edge).c_str());
-  line(" %7s\n", "more");
+  out += fmt::format("{:<14} {:>9} {:>9} {:>9} {:>9}  counts below", "delay in us", "median", "99 %",
+                     "99.9 %", "maximum");
+  for (const double edge : edges()) out += fmt::format(" {:>7}", edge_text(edge));
+  out += fmt::format(" {:>7}\n", "more");
   for (const auto& process : timing.processes()) {
-    line("%-14s", process.name().c_str());
-    for (const double share : {0.5, 0.99, 0.999, 1.0}) line(" %9.0f", 1e6 * process.quantile(share));
-    line("%14s", "");
-    for (const auto count : process.histogram(edges()))
-      line(" %7llu", static_cast<unsigned long long>(count));
+    out += fmt::format("{:<14}", process.name());
+    for (const double share : {0.5, 0.99, 0.999, 1.0})
+      out += fmt::format(" {:>9.0f}", 1e6 * process.quantile(share));
+    out += fmt::format("{:>14}", "");
+    for (const auto count : process.histogram(edges())) out += fmt::format(" {:7}", count);
     out += '\n';
   }
-  line("%llu cycles, %llu starved periods, %llu cycles missing in the recordings\n",
-       static_cast<unsigned long long>(timing.cycles()), static_cast<unsigned long long>(timing.starved()),
-       static_cast<unsigned long long>(timing.lost()));
+  out += fmt::format("{} cycles, {} starved periods, {} cycles missing in the recordings\n", timing.cycles(),
+                     timing.starved(), timing.lost());
   if (timing.usable_lead() > 0)
-    line(
-        "This computer could run with a lead (000900) of %llu cycles: twice the longest delay of the "
-        "stream\n",
-        static_cast<unsigned long long>(timing.usable_lead()));
+    out += fmt::format(
+        "This computer could run with a lead (000900) of {} cycles: twice the longest delay of the stream\n",
+        timing.usable_lead());
   return out;
 }
 

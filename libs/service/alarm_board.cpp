@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/alarm_board.hpp"
 
+#include <utility>
+
+#include "text/utf8.hpp"
+
 namespace trunnion::service {
+namespace {
+
+constexpr std::size_t longest_text = 256;  // as in idl/service.idl
+
+}  // namespace
 
 AlarmBoard::AlarmBoard(bus::Bus& bus, std::uint32_t instance, std::string service)
     : instance_(instance), service_(std::move(service)), writer_(bus.writer(topics::alarm)) {}
@@ -16,24 +25,18 @@ void AlarmBoard::unmute() {
     if (entry.alarm.active) publish(entry);
 }
 
-namespace {
-std::string cut(std::string text) {
-  if (text.size() > 250) text.resize(250);
-  return text;
-}
-}  // namespace
-
 void AlarmBoard::raise(const machine::AlarmDefinition& alarm, std::uint32_t part, const std::string& text,
                        std::uint64_t cycle) {
   auto& entry = entries_[{alarm.number, part}];
-  const bool news = !entry.alarm.active || entry.alarm.text != cut(text);
+  auto shown = text::shortened(text, longest_text);
+  const bool news = !entry.alarm.active || entry.alarm.text != shown;
   entry.cause = true;
   if (!news) return;
   auto& a = entry.alarm;
   a.instance = instance_, a.number = alarm.number, a.part = part;
   a.severity = static_cast<idl::service::Severity>(alarm.severity);
   a.reaction = static_cast<idl::service::Reaction>(alarm.reaction);
-  a.source = service_, a.text = cut(text), a.cycle = cycle;
+  a.source = service_, a.text = std::move(shown), a.cycle = cycle;
   a.active = true;
   ++a.occurrences;
   entry.subject = alarm.subject;

@@ -15,6 +15,7 @@
 #include "bus/contract.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/services.hpp"
+#include "text/utf8.hpp"
 #include "trunnion/version.hpp"
 
 namespace trunnion::service {
@@ -126,7 +127,7 @@ void Node::beat(const Health& health) {
   const double now = monotonic_seconds();
   const double elapsed = now - last_beat_;
   state_.lifecycle = health.lifecycle;
-  state_.detail = health.detail.substr(0, 128);
+  state_.detail = text::shortened(health.detail, 128);
   state_.frames_in = health.frames_in;
   state_.frames_out = health.frames_out;
   state_.frames_lost = health.frames_lost;
@@ -140,7 +141,7 @@ void Node::beat(const Health& health) {
                    : health.in_step             ? StandbyState::MATCHING
                                                 : StandbyState::JOINING;
   state_.compared = health.compared;
-  state_.difference = health.difference.substr(0, 192);
+  state_.difference = text::shortened(health.difference, 192);
   state_.uptime = now - started_;
   ++state_.beats;
   state_writer_.write(state_);

@@ -10,6 +10,7 @@
 #include "machine/services.hpp"
 #include "service/node.hpp"
 #include "snapshot/assembly.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::service {
 namespace {
@@ -40,7 +41,7 @@ void SnapshotDesk::serve(Service& service) {
   ++head_.number;
   head_.time = static_cast<std::uint64_t>(bus::source_time());
   head_.kind = answer.kind;
-  head_.detail = answer.detail.substr(0, longest_detail);
+  head_.detail = text::shortened(answer.detail, longest_detail);
   head_.taken.clear();
   for (const auto& [topic, time] : bus_.taken())
     head_.taken.push_back({topic, static_cast<std::uint64_t>(time)});

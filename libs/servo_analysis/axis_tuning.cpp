@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo_analysis/axis_tuning.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "servo_analysis/friction.hpp"
 
@@ -50,11 +52,9 @@ class Tuning {
   }
 
  private:
-  void say(const char* format, auto... values) {
-    if (!task_.progress) return;
-    char line[200];
-    std::snprintf(line, sizeof line, format, values...);
-    task_.progress(line);
+  template <class... Values>
+  void say(fmt::format_string<Values...> format, Values&&... values) {
+    if (task_.progress) task_.progress(fmt::format(format, std::forward<Values>(values)...));
   }
 
   MotionResult move(const ServoSettings& trial, const TestMotion& motion) {
@@ -77,7 +77,7 @@ class Tuning {
     safe_.position_gain = first_gain, safe_.speed_integral_time = 200;
     for (double gain = first_speed_gain; gain >= 20; gain /= 2) {
       safe_.speed_gain = gain, safe_.position_gain = std::min(first_gain, gain / 10);
-      say("start with position gain %g and speed gain %g 1/s", safe_.position_gain, gain);
+      say("start with position gain {:g} and speed gain {:g} 1/s", safe_.position_gain, gain);
       first_ = move(safe_, stroke_at(task_, 3000, 4));
       if (!first_.vibration) return;
     }
@@ -93,7 +93,7 @@ class Tuning {
     auto points = friction_points(first_.trace);
     for (const auto& p : friction_points(slow.trace)) points.push_back(p);
     result_.coulomb = std::max(0.0, identify_friction(points).coulomb);
-    say("inertia %.2f of the nominal one, Coulomb friction %.3f of the rated torque", result_.inertia,
+    say("inertia {:.2f} of the nominal one, Coulomb friction {:.3f} of the rated torque", result_.inertia,
         result_.coulomb);
     safe_.acceleration_feedforward = std::clamp(result_.inertia, 0.0, 11.0);
     set_speed_gain(safe_, std::max(safe_.speed_gain, 4 * safe_.position_gain * result_.inertia));
@@ -108,7 +108,7 @@ class Tuning {
     while (true) {
       const double gain = std::min(good * step, highest);
       const auto result = move(set(gain), stroke_at(task_, 1000));
-      say("%s %.4g 1/s: %s", name, gain, result.vibration ? "vibration" : "still");
+      say("{} {:.4g} 1/s: {}", name, gain, result.vibration ? "vibration" : "still");
       if (!result.vibration) {
         good = gain;
         if (gain >= highest) return 0;
@@ -146,8 +146,8 @@ class Tuning {
     result_.critical_position_gain = critical("position gain", safe_.position_gain, highest, with);
     const double found = result_.critical_position_gain > 0 ? result_.critical_position_gain : highest;
     result_.settings = with(kept * found);
-    say("80 %% of the critical gains: speed gain %.4g, position gain %.4g 1/s", result_.settings.speed_gain,
-        result_.settings.position_gain);
+    say("80 % of the critical gains: speed gain {:.4g}, position gain {:.4g} 1/s",
+        result_.settings.speed_gain, result_.settings.position_gain);
   }
 
   // Friction compensation where it makes the reversal better.
@@ -159,7 +159,7 @@ class Tuning {
     if (before.vibration || after.vibration) return;
     const double window = task_.circles ? reversal_window : 0.1;
     const double jump = reversal_jump(before.trace, window), compensated = reversal_jump(after.trace, window);
-    say("reversal %.2f um, with friction compensation %.2f um", jump * 1e3, compensated * 1e3);
+    say("reversal {:.2f} um, with friction compensation {:.2f} um", jump * 1e3, compensated * 1e3);
     if (compensated < jump) result_.settings = with;
   }
 
@@ -170,7 +170,7 @@ class Tuning {
       bool vibration = false;
       result_.figures = servo_figures(*this, vibration);
       for (const auto& f : result_.figures)
-        say("  %-28s %9.3f, limit %g %s", f.name.c_str(), f.value, f.limit, f.unit.c_str());
+        say("  {:<28} {:>9.3f}, limit {:g} {}", f.name, f.value, f.limit, f.unit);
       if (!vibration && result_.reached()) return;
       auto& s = result_.settings;
       if (vibration || !speed_figures_reached()) {
@@ -188,8 +188,8 @@ class Tuning {
         s.speed_gain = std::min(s.speed_gain * 1.1, 1e4);
         s.position_gain = std::min(s.position_gain * 1.1, 1000.0);
       }
-      say("limits not reached: speed gain %.4g 1/s, integral time %.3g ms, position gain %.4g 1/s, dual loop "
-          "%.3g ms",
+      say("limits not reached: speed gain {:.4g} 1/s, integral time {:.3g} ms, position gain {:.4g} 1/s, "
+          "dual loop {:.3g} ms",
           s.speed_gain, s.speed_integral_time, s.position_gain, s.dual_loop_time);
     }
   }

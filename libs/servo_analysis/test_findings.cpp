@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo_analysis/test_findings.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "machine/parameter_constants.hpp"
-#include "text/printed.hpp"
 
 namespace trunnion::servo_analysis {
 
@@ -26,8 +27,8 @@ TestFindings position_findings(const TestedAxis& a, double feed, const MotionFig
                 {},
                 0.2 * slower / 1000},
                {"Kv", bare.velocity_gain, "1/s", least_position_gain, highest_gain}};
-  r.notes.push_back(text::printed("Kv is speed over following error without feed-forward at %.0f %s", slower,
-                                  a.speed_unit().c_str()));
+  r.notes.push_back(fmt::format("Kv is speed over following error without feed-forward at {:.0f} {}", slower,
+                                a.speed_unit()));
   r.notes.push_back(
       "at 1000 mm/min 0.2 mm is Kv 83 1/s and 0.1 mm, the best, 167 1/s: a larger error needs a higher "
       "position gain (10a900, PA0)");
@@ -78,8 +79,8 @@ TestFindings roundness_findings(char first, char second, const RoundnessFigures&
     r.figures.push_back(
         {"quadrant jump at " + std::to_string(90 * q) + " deg", f.quadrant_jump[q], "mm", {}, 0.01});
   r.notes.push_back(
-      text::printed("a mismatch above zero: %c lags behind %c; make the position gains (10a900, PA0) equal",
-                    first, second));
+      fmt::format("a mismatch above zero: {} lags behind {}; make the position gains (10a900, PA0) equal",
+                  first, second));
   return r;
 }
 
@@ -91,7 +92,7 @@ TestFindings rtcp_findings(const SimultaneousFigures& f, const std::vector<AxisL
                {"mismatch of rotary axis", f.rotary * 1e3, "um", {}, 1},
                {"servo mismatch without feed-forward", (most->time - least->time) * 1e3, "ms", {}, 1}};
   for (const auto& lag : lags)
-    r.figures.push_back({text::printed("time lag of %c", lag.letter), lag.time * 1e3, "ms", {}, {}});
+    r.figures.push_back({fmt::format("time lag of {}", lag.letter), lag.time * 1e3, "ms", {}, {}});
   r.notes.push_back(
       "time lags are without feed-forward, 1 / Kv; above the limit: lower the position gain (10a900, PA0) of "
       "every axis to that of the weakest");

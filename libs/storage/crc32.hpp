@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CRC-32 as in zlib, gzip, MCAP and ISO 3309: reflected polynomial 0xEDB88320, start and final inversion.
+// CRC-32 of zlib, as in gzip, MCAP and ISO 3309: reflected polynomial 0xEDB88320, start and final inversion.
 #pragma once
 
 #include <cstdint>

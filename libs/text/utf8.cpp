@@ -54,4 +54,13 @@ std::size_t valid_utf8_prefix(std::string_view text) {
   return i;
 }
 
+std::string shortened(std::string text, std::size_t most) {
+  constexpr std::string_view mark = " ...";
+  if (text.size() <= most) return text;
+  std::size_t end = most - mark.size();
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u) --end;
+  text.replace(end, std::string::npos, mark);
+  return text;
+}
+
 }  // namespace trunnion::text

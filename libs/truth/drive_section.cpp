@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "truth/drive_section.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -66,13 +68,11 @@ class DriveParser {
       return number(targets, key, v);
     });
     const double resonance = m.locked_frequency / std::sqrt(1 - m.load_share);
-    if (resonance > highest_frequency) {
-      char text[160];
-      std::snprintf(text, sizeof text,
-                    "the resonance locked_frequency_Hz / sqrt(1 - load_share) is %.0f Hz, above %.0f Hz",
-                    resonance, highest_frequency);
-      reader_.fail(node, text);
-    }
+    if (resonance > highest_frequency)
+      reader_.fail(node,
+                   fmt::format("the resonance locked_frequency_Hz / sqrt(1 - load_share) is {:.0f} Hz, above "
+                               "{:.0f} Hz",
+                               resonance, highest_frequency));
     if (node["breakaway"] && m.breakaway < m.coulomb)
       reader_.fail(node["breakaway"], "breakaway is less than coulomb");
     return m;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verification/difference.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <tuple>
 
@@ -93,11 +94,7 @@ class RowCache {
 };
 
 std::string text_of_value(const bus::Json& value) {
-  if (value.is_number_float()) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", value.get<double>());
-    return text;
-  }
+  if (value.is_number_float()) return fmt::format("{:.17g}", value.get<double>());
   return bus::text_of(value);
 }
 
@@ -262,37 +259,26 @@ void add_tolerance(DiffOptions& options, const std::string& text) {
 
 std::string text_of(const Difference& d, const std::string& a, const std::string& b) {
   std::string text;
-  char line[300];
   for (const auto& t : d.topics) {
-    std::snprintf(line, sizeof line, "%-20s %10llu %s compared", t.topic.c_str(),
-                  static_cast<unsigned long long>(t.compared), t.cyclic ? "cycles" : "messages");
-    text += line;
+    text += fmt::format("{:<20} {:10} {} compared", t.topic, t.compared, t.cyclic ? "cycles" : "messages");
     if (t.equal()) text += ", equal";
     if (t.only_a != 0) text += ", " + std::to_string(t.only_a) + " only in " + a;
     if (t.only_b != 0) text += ", " + std::to_string(t.only_b) + " only in " + b;
     text += "\n";
-    for (const auto& [name, field] : t.fields) {
-      std::snprintf(line, sizeof line, "    %-24s differs %llu times, first at %llu, largest %.3g at %llu\n",
-                    name.c_str(), static_cast<unsigned long long>(field.count),
-                    static_cast<unsigned long long>(field.first_index), field.largest,
-                    static_cast<unsigned long long>(field.largest_index));
-      text += line;
-    }
+    for (const auto& [name, field] : t.fields)
+      text += fmt::format("    {:<24} differs {} times, first at {}, largest {:.3g} at {}\n", name,
+                          field.count, field.first_index, field.largest, field.largest_index);
   }
   if (!d.first) return text + (d.topics.empty() ? "nothing to compare\n" : "equal\n");
   const auto& f = *d.first;
   text += "first difference: " + f.topic + (f.series.empty() ? "" : ", " + f.series) +
           (f.cyclic ? ", cycle " : ", message ") + std::to_string(f.index) +
           (f.field.empty() ? ", only in one of them" : ", " + f.field) + "\n";
-  std::snprintf(line, sizeof line, "    %12s  %-26s %-26s\n", f.cyclic ? "cycle" : "message", a.c_str(),
-                b.c_str());
-  text += line;
+  text += fmt::format("    {:>12}  {:<26} {:<26}\n", f.cyclic ? "cycle" : "message", a, b);
   for (const auto& n : f.around) {
     if (n.index + shown_rows < f.index || n.index > f.index + shown_rows) continue;
-    std::snprintf(line, sizeof line, "  %c %12llu  %-26s %-26s\n", n.index == f.index ? '>' : ' ',
-                  static_cast<unsigned long long>(n.index), n.a.empty() ? "-" : n.a.c_str(),
-                  n.b.empty() ? "-" : n.b.c_str());
-    text += line;
+    text += fmt::format("  {} {:12}  {:<26} {:<26}\n", n.index == f.index ? '>' : ' ', n.index,
+                        n.a.empty() ? "-" : n.a, n.b.empty() ? "-" : n.b);
   }
   return text;
 }

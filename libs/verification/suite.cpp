@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verification/suite.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -156,11 +158,11 @@ std::vector<SuiteTest> tests_of(
 
 std::vector<std::string> verify_arguments(const Suite& suite, const SuiteTest& test) {
   const auto& entry = suite.entries.at(test.entry);
-  char timeout[32];
-  std::snprintf(timeout, sizeof timeout, "%g", suite.timeout);
-  std::vector<std::string> arguments = {
-      "verify",        "--json",    "--service", test.process.service, "--recording",
-      entry.recording, "--timeout", timeout,     "--around",           std::to_string(plotted_rows)};
+  std::vector<std::string> arguments = {"verify",      "--json",
+                                        "--service",   test.process.service,
+                                        "--recording", entry.recording,
+                                        "--timeout",   fmt::format("{:g}", suite.timeout),
+                                        "--around",    std::to_string(plotted_rows)};
   const auto add = [&](const std::string& option, const std::string& value) {
     if (!value.empty()) arguments.insert(arguments.end(), {option, value});
   };
@@ -170,8 +172,7 @@ std::vector<std::string> verify_arguments(const Suite& suite, const SuiteTest& t
   if (const auto own = entry.executables.find(test.process.service); own != entry.executables.end())
     add("--exec", own->second);
   for (const auto& [field, value] : entry.tolerances) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
+    const auto text = fmt::format("{:.17g}", value);
     add("--tolerance", field.empty() ? text : field + "=" + text);
   }
   if (const auto required = entry.required.find(test.process.service); required != entry.required.end())

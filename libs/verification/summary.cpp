@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verification/summary.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cinttypes>
-#include <cstdio>
 
 #include "bus/codec.hpp"
 #include "contracts/topics.hpp"
@@ -81,13 +81,6 @@ std::size_t place_in_stream(const std::string& handle) {
   return static_cast<std::size_t>(std::find(order.begin(), order.end(), handle) - order.begin());
 }
 
-template <class... Args>
-std::string line(const char* format, Args... args) {
-  char text[400];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
-
 }  // namespace
 
 double TopicSummary::rate() const {
@@ -155,36 +148,36 @@ Summary summarize(recording::Source& source) {
 
 std::string text_of(const Summary& s) {
   std::string text;
-  for (const auto& [name, value] : s.metadata) text += line("%-10s %s\n", name.c_str(), value.c_str());
-  if (!s.same_contract) text += line("           this program's contract is %s\n", topics::contract_hash);
-  text += line("%-10s %" PRIu64 " in %.3f s\n", "messages", s.messages, s.seconds());
+  for (const auto& [name, value] : s.metadata) text += fmt::format("{:<10} {}\n", name, value);
+  if (!s.same_contract)
+    text += fmt::format("           this program's contract is {}\n", topics::contract_hash);
+  text += fmt::format("{:<10} {} in {:.3f} s\n", "messages", s.messages, s.seconds());
   for (const auto& [compression, chunks] : s.compressions)
-    text += line("%-10s %" PRIu64 ", compression %s\n", "chunks", chunks, compression.c_str());
+    text += fmt::format("{:<10} {}, compression {}\n", "chunks", chunks, compression);
   for (const auto& damage : s.damages) text += "damaged    " + recording::text_of(damage) + "\n";
   if (!s.complete && s.damages.empty()) text += "cut off    " + s.problem + "\n";
   std::string revisions;
   for (const auto r : s.revisions) revisions += (revisions.empty() ? "" : ", ") + std::to_string(r);
-  if (!revisions.empty()) text += line("%-10s %s\n", "parameters", ("revision " + revisions).c_str());
+  if (!revisions.empty()) text += fmt::format("{:<10} {}\n", "parameters", "revision " + revisions);
   for (const auto& name : s.without_state) text += "no state   " + name + "\n";
-  text += line("\n%-24s %10s %12s %12s  %s\n", "topic", "messages", "bytes", "per second", "type");
+  text +=
+      fmt::format("\n{:<24} {:>10} {:>12} {:>12}  {}\n", "topic", "messages", "bytes", "per second", "type");
   for (const auto& t : s.topics) {
-    text += line("%-24s %10" PRIu64 " %12" PRIu64 " %12.1f  %s", t.handle.c_str(), t.messages, t.bytes,
-                 t.rate(), t.type.c_str());
+    text += fmt::format("{:<24} {:10} {:12} {:>12.1f}  {}", t.handle, t.messages, t.bytes, t.rate(), t.type);
     if (t.known != Known::same) text += std::string(", ") + text_of(t.known) + " in this program's contract";
     if (t.missing != 0) text += ", " + std::to_string(t.missing) + " missing";
     if (t.undecodable != 0) text += ", " + std::to_string(t.undecodable) + " undecodable";
     text += "\n";
   }
   if (!s.streams.empty())
-    text += line("\n%-24s %7s %5s %20s %10s %6s %6s %8s\n", "stream", "channel", "epoch", "cycles", "covered",
-                 "lost", "late", "repeated");
+    text += fmt::format("\n{:<24} {:>7} {:>5} {:>20} {:>10} {:>6} {:>6} {:>8}\n", "stream", "channel",
+                        "epoch", "cycles", "covered", "lost", "late", "repeated");
   for (const auto& c : s.streams) {
     const auto range = std::to_string(c.begin) + ".." + std::to_string(c.end - 1);
-    text += line("%-24s %7u %5u %20s %10" PRIu64 " %6" PRIu64 " %6" PRIu64 " %8" PRIu64 "\n",
-                 c.handle.c_str(), static_cast<unsigned>(c.channel), static_cast<unsigned>(c.epoch),
-                 range.c_str(), c.cycles, c.lost, c.late, c.repeated);
+    text += fmt::format("{:<24} {:7} {:5} {:>20} {:10} {:6} {:6} {:8}\n", c.handle, c.channel, c.epoch, range,
+                        c.cycles, c.lost, c.late, c.repeated);
     for (const auto& gap : c.gaps)
-      text += line("%24s missing %" PRIu64 "..%" PRIu64 "\n", "", gap.first, gap.first + gap.count - 1);
+      text += fmt::format("{:>24} missing {}..{}\n", "", gap.first, gap.first + gap.count - 1);
   }
   if (!s.participants.empty()) text += "\nservice vendor version contract\n";
   for (const auto& participant : s.participants) text += participant + "\n";

@@ -12,6 +12,7 @@
 #include "http_client/client.hpp"
 #include "service/node.hpp"
 #include "storage/crc32.hpp"
+#include "text/utf8.hpp"
 #include "verification/gateway_plan.hpp"
 #include "verification/repetitions.hpp"
 #include "verification/shown_state.hpp"
@@ -24,11 +25,7 @@ using bus::Json;
 using idl::gateway::Sender;
 
 constexpr double short_wait = 0.005;  // s
-constexpr std::size_t shown_text = 200;
-
-std::string shortened(const std::string& text) {
-  return text.size() <= shown_text ? text : text.substr(0, shown_text) + " ...";
-}
+constexpr std::size_t shown_text = 204;
 
 // A client of /api/stream: the first message is the state, the others change it.
 class StateStream {
@@ -164,9 +161,9 @@ class Verification {
     const auto answer = answering.get();
     if (answer.status != line.status || answer.body.size() != line.answer_size ||
         storage::crc32(answer.body) != line.answer_crc32)
-      return name_of(line) + " was answered " + std::to_string(answer.status) + " " + shortened(answer.body) +
-             "; recorded is " + std::to_string(line.status) + " " +
-             (line.answer.size() == line.answer_size ? shortened(line.answer)
+      return name_of(line) + " was answered " + std::to_string(answer.status) + " " +
+             text::shortened(answer.body, shown_text) + "; recorded is " + std::to_string(line.status) + " " +
+             (line.answer.size() == line.answer_size ? text::shortened(line.answer, shown_text)
                                                      : std::to_string(line.answer_size) + " bytes");
     return await_line(request);
   }

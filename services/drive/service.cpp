@@ -15,6 +15,7 @@
 #include "src/timeouts.hpp"
 #include "storage/file.hpp"
 #include "stream/stage_service.hpp"
+#include "text/utf8.hpp"
 
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
@@ -284,7 +285,7 @@ bool DriveService::request_test(const idl::servo::TestRequest& request) {
   samples_ = {};
   samples_.client = request.client, samples_.number = request.number;
   samples_.phase = idl::servo::TestPhase::REFUSED;
-  samples_.reason = reason.substr(0, 240);
+  samples_.reason = text::shortened(std::move(reason), 240);
   samples_writer_->write(samples_);
   return false;
 }

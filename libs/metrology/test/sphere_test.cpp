@@ -84,10 +84,10 @@ TEST(Sphere, RefusesTouchesThatGiveNone) {
             SphereError::not_finite);
 }
 
-TEST(Student, ProbabilitiesAreThoseOfTheClosedForms) {
-  // One degree of freedom: Cauchy, 2/pi atan t. Two: t / sqrt(2 + t^2).
-  EXPECT_NEAR(student_within(1, 1), 0.5, 1e-15);
-  EXPECT_NEAR(student_within(3, 2), 3 / std::sqrt(11.0), 1e-15);
+TEST(Student, CoverageFactorsAreThoseOfTheClosedFormsAndOfTheGum) {
+  // The probability of -t .. t: with one degree of freedom (Cauchy) 2/pi atan t, with two t / sqrt(2 + t^2).
+  EXPECT_NEAR(coverage_factor(0.5, 1, 1), 1, 1e-12);
+  EXPECT_NEAR(coverage_factor(3 / std::sqrt(11.0), 1, 2), 3, 1e-12);
   // GUM table G.2: 95 %.
   EXPECT_NEAR(coverage_factor(0.95, 1, 3), 3.18, 0.005);
   EXPECT_NEAR(coverage_factor(0.95, 1, 10), 2.23, 0.005);

@@ -129,10 +129,10 @@ TEST_F(AlarmBoardTest, AMutedBoardPublishesNothingUntilItIsUnmuted) {
   EXPECT_EQ(newest_.size(), 1u);
 }
 
-TEST_F(AlarmBoardTest, ALongTextIsCutToWhatTheMessageHolds) {
+TEST_F(AlarmBoardTest, ALongTextEndsWithAMarkWhereTheMessageHoldsNoMore) {
   board_.raise(alarm::storage_failed, 0, std::string(1000, 'x'));
   ASSERT_TRUE(active(alarm::storage_failed, 0));
-  EXPECT_EQ(newest(alarm::storage_failed, 0).text, std::string(250, 'x'));
+  EXPECT_EQ(newest(alarm::storage_failed, 0).text, std::string(252, 'x') + " ...");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ TEST(Crc32, GivesThePublishedCheckValue) {
   // The check value of CRC-32/ISO-HDLC in the catalogue of parametrised CRC algorithms.
   EXPECT_EQ(crc32("123456789"), 0xCBF43926u);
   EXPECT_EQ(crc32(""), 0u);
+  EXPECT_EQ(crc32(0xCBF43926u, {}), 0xCBF43926u) << "no bytes more";
 }
 
 TEST(Crc32, IsTheRemainderOfThePolynomialForEveryLengthAndEverySplit) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace trunnion::text {
 namespace {
 
@@ -17,6 +19,41 @@ TEST(Utf8, WellFormedAndIllFormedSequences) {
        {"ab\x80", "ab\xc1\xbf", "ab\xc3", "ab\xe0\x9f\xbf", "ab\xed\xa0\x80", "ab\xf0\x8f\xbf\xbf",
         "ab\xf4\x90\x80\x80", "ab\xf5\x80\x80\x80", "ab\xe2\x82", "ab\xff"}) {
     EXPECT_EQ(valid_utf8_prefix(bad), 2u) << bad;
+  }
+}
+
+TEST(Shortened, LeavesWhatFitsAndMarksWhatDoesNot) {
+  EXPECT_EQ(shortened("", 8), "");
+  EXPECT_EQ(shortened("12345678", 8), "12345678");
+  EXPECT_EQ(shortened("123456789", 8), "1234 ...");
+  EXPECT_EQ(shortened("123456789", 4), " ...");
+}
+
+// With 10 bytes six are left before the mark: the three bytes of the euro sign are the fifth to the seventh.
+TEST(Shortened, CutsNoCharacterInTwo) {
+  EXPECT_EQ(shortened("1234\xe2\x82\xac"
+                      "5678",
+                      10),
+            "1234 ...");
+  EXPECT_EQ(shortened("123\xe2\x82\xac"
+                      "45678",
+                      10),
+            "123\xe2\x82\xac ...");
+  EXPECT_EQ(shortened("12345\xc3\xa9"
+                      "6789",
+                      10),
+            "12345 ...");
+}
+
+TEST(Shortened, IsNeverLongerThanItMayBe) {
+  std::string text;
+  for (int i = 0; i < 30; ++i) text += i % 3 == 0 ? "x" : i % 3 == 1 ? "\xc3\xa9" : "\xf0\x9f\x98\x80";
+  for (std::size_t most = 4; most < text.size(); ++most) {
+    const auto found = shortened(text, most);
+    EXPECT_LE(found.size(), most);
+    EXPECT_GT(found.size() + 4, most) << "a character has four bytes at most";
+    EXPECT_EQ(valid_utf8_prefix(found), found.size());
+    EXPECT_TRUE(found.ends_with(" ..."));
   }
 }
 

@@ -5,6 +5,7 @@
 #include "channel_core.hpp"
 #include "machine/parameter_constants.hpp"
 #include "modal_codes.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -156,7 +157,7 @@ const idl::channel::ChannelState& ChannelCore::state() {
   }
   s.restart_line = interrupted_.line;
   s.needs_reset = states_.needs_reset();
-  s.detail = detail().substr(0, 128);
+  s.detail = text::shortened(detail(), 128);
   return s;
 }
 

@@ -8,6 +8,7 @@
 #include "machine/alarm_constants.hpp"
 #include "machine/roles.hpp"
 #include "measurement.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::measurement {
 namespace {
@@ -55,7 +56,7 @@ void Measurement::answer(CycleOutcome outcome, const std::string& reason, std::u
   reply.channel = machine_.channel();
   reply.number = caller_->number;
   reply.outcome = outcome;
-  reply.reason = reason.substr(0, most_reply);
+  reply.reason = text::shortened(reason, most_reply);
   if (outcome == CycleOutcome::REFUSED) reply.alarm = stored_.state.alarm;
   if (outcome == CycleOutcome::CALL) reply.program = part_program, reply.revision = revision;
   reply_ = reply;

@@ -10,6 +10,7 @@
 #include "machine/alarm_constants.hpp"
 #include "machine/kinematics.hpp"
 #include "measurement.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::measurement {
 namespace {
@@ -68,7 +69,7 @@ MeasurementReply Measurement::apply(const MeasurementRequest& request, const std
   MeasurementReply reply;
   reply.accepted = reason.empty();
   if (!reply.accepted) reply.alarm = alarm::request_invalid.number;
-  reply.reason = reason.substr(0, most_reason);
+  reply.reason = text::shortened(std::move(reason), most_reason);
   reply.measurement = stored_.state.measurement;
   return reply;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a measurement does by itself.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "machine/roles.hpp"
 #include "measurement.hpp"
 #include "metrology/sphere.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::measurement {
 namespace {
@@ -119,7 +121,7 @@ std::string Measurement::where() const {
 void Measurement::fail(const std::string& cause, std::uint32_t alarm, double now) {
   const auto prefix = where() + ": ";
   cause_ = (cause.starts_with(prefix) ? "" : prefix) + cause;
-  stored_.state.error = cause_.substr(0, most_error);
+  stored_.state.error = text::shortened(cause_, most_error);
   stored_.state.alarm = alarm;
   stopping_since_ = now;
   hold_sent_ = false;
@@ -160,7 +162,7 @@ void Measurement::stop(double now) {
         std::string("; the channel is ") + bus::to_string(channel->state) + ", reset it before anything else";
   text += "; nothing written, " + std::to_string(state.complete) + " of " + std::to_string(state.poses) +
           " poses are complete";
-  state.error = text.substr(0, most_error);
+  state.error = text::shortened(std::move(text), most_error);
   change(Phase::INTERRUPTED);
   if (caller_asks()) answer(idl::channel::CycleOutcome::REFUSED, state.error);
 }
@@ -352,18 +354,17 @@ void Measurement::check_repeatability(const calibration::MacroVariables& variabl
   const Vec3& tool = plan_->plan.poses.front().directions.back();
   const double range = calibration::range_along(positions, tool);
   stored_.state.repeatability = range;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "%zu touches of one point differ by %.2f um, %.2f um is permitted: check the probe",
-                calibration::repeated_touches, um * range, um * plan_->inputs.repeatability);
-  if (!(range <= plan_->inputs.repeatability)) throw std::runtime_error(text);
+  if (!(range <= plan_->inputs.repeatability))
+    throw std::runtime_error(
+        fmt::format("{} touches of one point differ by {:.2f} um, {:.2f} um is permitted: check the probe",
+                    calibration::repeated_touches, um * range, um * plan_->inputs.repeatability));
   if (touches_->done().empty()) return;
   const double moved = (positions.back() - touches_->done().front().positions.back()).dot(tool);
-  std::snprintf(text, sizeof text,
-                "the sphere is %.1f um from where the touches that are kept have it, %.0f um is permitted; "
-                "start again",
-                um * std::abs(moved), um * moved_tolerance);
-  if (!(std::abs(moved) <= moved_tolerance)) throw std::runtime_error(text);
+  if (!(std::abs(moved) <= moved_tolerance))
+    throw std::runtime_error(fmt::format(
+        "the sphere is {:.1f} um from where the touches that are kept have it, {:.0f} um is permitted; "
+        "start again",
+        um * std::abs(moved), um * moved_tolerance));
 }
 
 void Measurement::estimate(double now) {
@@ -392,12 +393,12 @@ void Measurement::estimate(double now) {
     out.largest_change = result.largest_change, out.touch_deviation = result.touch_deviation;
     const auto middle = std::min(state.time.find('T'), state.time.size());
     const auto clock = state.time.substr(std::min(middle + 1, state.time.size()), 8);
-    out.protocol =
+    out.protocol = text::shortened(
         calibration::protocol_text({state.time.substr(0, middle), clock, "-", "probe of the machine"}, in,
-                                   plan_->measured, result)
-            .substr(0, most_protocol);
+                                   plan_->measured, result),
+        most_protocol);
     out.valid = true;
-    state.tolerance_alarm = result.tolerance_alarm.substr(0, most_text);
+    state.tolerance_alarm = text::shortened(result.tolerance_alarm, most_text);
     state.tolerance_needs_reset = in.tolerance_needs_reset;
   } catch (const std::exception& e) {
     return fail(e.what(), 0, now);
@@ -444,7 +445,7 @@ void Measurement::answered(std::size_t kind, const Answer& answer, double now) {
   if (stored_.state.phase == Phase::WRITING) {
     stored_.state.written = answer.accepted || written_already();
     stored_.state.error =
-        stored_.state.written ? "" : ("nothing written: " + answer.reason).substr(0, most_error);
+        stored_.state.written ? "" : text::shortened("nothing written: " + answer.reason, most_error);
     change(stored_.state.written ? Phase::FINISHED : Phase::WAITING);
     settle_caller();
   } else if (run_) {

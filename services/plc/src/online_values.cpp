@@ -6,6 +6,7 @@
 
 #include "plc/syntax/token.hpp"
 #include "plc/tools/value_text.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -84,7 +85,7 @@ idl::plc::OnlineReply OnlineValues::answer(const idl::plc::OnlineRequest& reques
     reply.accepted = true;
   } catch (const std::runtime_error& e) {
     reply = {};
-    reply.reason = std::string(e.what()).substr(0, 256);
+    reply.reason = text::shortened(e.what(), 256);
   }
   return reply;
 }

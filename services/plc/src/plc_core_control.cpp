@@ -2,6 +2,7 @@
 // What the programs decide of the channels: inhibits with their reasons, overrides, and the answers to their
 // orders.
 #include <algorithm>
+#include <utility>
 
 #include "commands/override_limits.hpp"
 #include "plc_core.hpp"
@@ -78,10 +79,7 @@ idl::plc::ChannelControl PlcCore::control(std::size_t channel) const {
     control.manual_inhibit = control.manual_inhibit || message.inhibits_manual;
     control.reason.append(control.reason.empty() ? "" : "; ").append(reason_of(number, message));
   }
-  if (control.reason.size() > longest_reason) {
-    control.reason.resize(longest_reason);
-    control.reason.resize(text::valid_utf8_prefix(control.reason));
-  }
+  control.reason = text::shortened(std::move(control.reason), longest_reason);
   return control;
 }
 

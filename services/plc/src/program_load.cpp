@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "plc/source_files.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -88,7 +89,7 @@ idl::plc::OnlineReply ProgramLoad::status(std::uint32_t first) const {
   }
   reply.total = static_cast<std::uint32_t>(all.size());
   for (std::size_t i = first; i < all.size() && reply.messages.size() < most_messages; ++i)
-    reply.messages.push_back(all[i].substr(0, longest_message));
+    reply.messages.push_back(text::shortened(all[i], longest_message));
   return reply;
 }
 

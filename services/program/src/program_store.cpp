@@ -7,6 +7,7 @@
 
 #include "machine/alarm_constants.hpp"
 #include "machine/roles.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::program {
 namespace {
@@ -211,7 +212,7 @@ idl::program::ProgramReply ProgramStore::apply(const Request& request, double no
     reply.alarm = alarm::storage_failed.number;
   }
   reply.accepted = error.empty();
-  reply.reason = error.substr(0, 256);
+  reply.reason = text::shortened(error, 256);
   return reply;
 }
 
