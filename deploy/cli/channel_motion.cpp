@@ -25,15 +25,7 @@ ChannelMotion run_sampled(ServoSession& session, const std::string& program, con
     motion.resting[index] = axis.place;
     if (sampled.find(axis.letter) != std::string::npos) numbers.push_back(axis.number);
   }
-  SessionResult result;
-  for (int attempt = 0;; ++attempt) {
-    try {
-      result = session.run(samples_of(numbers, static_cast<std::uint16_t>(decimation << attempt)), program);
-      break;
-    } catch (const SamplesLost&) {
-      if (attempt == 3) throw;
-    }
-  }
+  auto result = session.run(samples_of(numbers, decimation), program);
   if (result.traces.size() != numbers.size() || result.traces.front().size() < 2)
     throw std::runtime_error("the drive gave no samples of the motion");
   motion.interval = result.traces.front().interval;

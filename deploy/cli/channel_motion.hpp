@@ -13,7 +13,7 @@ using servo_analysis::ChannelMotion;
 
 /// Runs `program` and samples the axes `sampled` (letters) every `decimation` periods of the speed loop while
 /// the channel moves; the other axes rest where they are. When this computer loses samples, the program runs
-/// again with half the rate, down to an eighth: the interval of the result says which.
+/// again, at last with a quarter of the rate: the interval of the result says which.
 ChannelMotion run_sampled(ServoSession& session, const std::string& program, const std::string& sampled,
                           std::uint16_t decimation);
 

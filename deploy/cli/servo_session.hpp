@@ -19,7 +19,7 @@ namespace trunnion::cli {
 
 using servo_analysis::TestedAxis;
 
-/// The computer did not take the drive's samples in time; the motion has ended.
+/// The computer did not take the drive's samples in time, in any of four runs; the motion has ended.
 struct SamplesLost : std::runtime_error {
   SamplesLost() : std::runtime_error("samples of the drive were lost: this computer is too slow") {}
 };
@@ -53,8 +53,9 @@ class ServoSession {
   /// Length of tool `number` with its wear, mm. Throws std::runtime_error when there is no such tool.
   double tool_length(std::uint32_t number);
 
-  /// Runs the program while the test runs; without a program until the test has ended by itself. Throws
-  /// SamplesLost.
+  /// Runs the program while the test runs; without a program until the test has ended by itself. Repeats a
+  /// run whose samples were lost, the third and the fourth without a signal with half as many samples each:
+  /// the interval is that of the result. Throws SamplesLost.
   SessionResult run(idl::servo::TestRequest request, const std::string& program);
   /// Runs a program alone.
   void move(const std::string& program);
@@ -62,6 +63,7 @@ class ServoSession {
   void write(const std::vector<servo_analysis::ServoSettings::Value>& values, const std::string& who);
 
  private:
+  SessionResult run_once(idl::servo::TestRequest request, const std::string& program);
   void take_axes();
   void start_program(const std::string& program);
   void await_end(SessionResult* result);
