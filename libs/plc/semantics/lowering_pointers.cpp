@@ -59,7 +59,7 @@ Value Lowering::size_of(const Expression& of) {
 std::string Lowering::pointing(const Expression& of, const Value& value) {
   const auto& place = value.place;
   if (is_in_image(place) || place.bit >= 0 || place.form != 0)
-    return "a register has no address; copy it to a variable";
+    return "registers and parts of variables have no address; copy it to a variable";
   if (value.type->open) return "ARRAY[*] has no pointer; write ADR of its first element";
   const auto& root = root_of(of);
   auto* variable = root.kind == Expression::Kind::name ? own_variable(root) : nullptr;

@@ -128,8 +128,9 @@ std::int32_t Unit::pointed(const Type& type) {
   entry.element = static_cast<std::uint32_t>(known - pointed_types_.begin());
   if (known == pointed_types_.end()) pointed_types_.push_back(&element);
   entry.cells = std::max<std::uint32_t>(element.cells, 1);
-  entry.count = type.cells / entry.cells;
-  entry.bytes = static_cast<std::uint32_t>(bytes_of(element));
+  // A program without variables has no cells.
+  entry.count = std::max<std::uint32_t>(type.cells / entry.cells, 1);
+  entry.bytes = std::max<std::uint32_t>(static_cast<std::uint32_t>(bytes_of(element)), 1);
   const bool is_number = has_bytes(element) && element.kind != Kind::string;
   if (has_bytes(element)) entry.view = is_number ? Pointed::View::number : Pointed::View::string;
   if (is_number) entry.form = cell_form(element.kind);

@@ -169,8 +169,9 @@ TEST(Pointers, AreRefusedWithOneClearLine) {
   EXPECT_THAT(first("x := p;"), HasSubstr("expected INT, found POINTER TO INT"));
   EXPECT_THAT(first("d := p;"), HasSubstr("expected DWORD, found POINTER TO INT"));
   EXPECT_THAT(first("p := ADR(5);"), HasSubstr("a variable is required"));
-  EXPECT_THAT(first("pb := ADR(lamp);"), HasSubstr("a register has no address"));
-  EXPECT_THAT(first("pb := ADR(%X0.1);"), HasSubstr("a register has no address"));
+  EXPECT_THAT(first("pb := ADR(lamp);"), HasSubstr("registers and parts of variables have no address"));
+  EXPECT_THAT(first("pb := ADR(%X0.1);"), HasSubstr("registers and parts of variables have no address"));
+  EXPECT_THAT(first("pb := ADR(d.%X1);"), HasSubstr("registers and parts of variables have no address"));
   EXPECT_THAT(first("p := p * 2;"), HasSubstr("is not defined; a pointer moves by a whole number of bytes"));
   EXPECT_THAT(first("p := p + 1.5;"), HasSubstr("a pointer moves by a whole number of bytes"));
   EXPECT_THAT(first("IF p > x THEN ; END_IF;"), HasSubstr("pointers are compared with pointers and NULL"));
