@@ -123,6 +123,11 @@ std::uint64_t Compilation::layout() const {
         add(std::to_string(symbol.type->cells));
   }
   for (const auto& name : implementers) add(name);
+  // A pointer names its entry.
+  for (const auto& entry : code ? code->pointed : std::vector<Pointed>{})
+    for (const auto number : {entry.element, entry.count, entry.cells, entry.bytes, entry.form,
+                              static_cast<std::uint32_t>(entry.view)})
+      add(std::to_string(number));
   add(code ? std::to_string(code->initial.size() - image_cells + layout_origin) : "");
   return hash;
 }

@@ -8,7 +8,7 @@
 namespace trunnion::st {
 namespace {
 
-constexpr std::uint32_t mark = 0x31545354;  // "TST1"
+constexpr std::uint32_t mark = 0x32545354;  // "TST2"
 constexpr std::uint32_t longest_name = 1000;
 
 class Writer {
@@ -86,6 +86,7 @@ std::vector<std::uint8_t> encode(const ByteCode& code) {
   Writer writer;
   writer.put(mark);
   writer.put(code.code), writer.put(code.routines), writer.put(code.ranges), writer.put(code.assertions);
+  writer.put(code.pointed);
   writer.put(code.entries), writer.put(code.initial), writer.put(code.timers), writer.put(code.retained);
   writer.put(code.registers);
   return writer.take();
@@ -98,10 +99,10 @@ std::optional<ByteCode> decode(std::span<const std::uint8_t> bytes) {
   constexpr std::uint32_t most = 1u << 16;
   const bool good = reader.get(found) && found == mark && reader.get(code.code, most_instructions) &&
                     reader.get(code.routines, most) && reader.get(code.ranges, most) &&
-                    reader.get(code.assertions, most) && reader.get(code.entries, most) &&
-                    reader.get(code.initial, most_cells) && reader.get(code.timers, most_cells) &&
-                    reader.get(code.retained, most_cells) && reader.get(code.registers, most) &&
-                    reader.at_end();
+                    reader.get(code.assertions, most) && reader.get(code.pointed, most_pointed) &&
+                    reader.get(code.entries, most) && reader.get(code.initial, most_cells) &&
+                    reader.get(code.timers, most_cells) && reader.get(code.retained, most_cells) &&
+                    reader.get(code.registers, most) && reader.at_end();
   if (!good) return std::nullopt;
   return code;
 }

@@ -58,11 +58,22 @@ struct Assertion {
   bool operator==(const Assertion&) const = default;
 };
 
+/// A variable that pointers reach: as many equal elements, of which each is so many cells, and so many bytes
+/// for pointers. Those with the same `element` have elements of one type.
+struct Pointed {
+  /// Which bytes of an element pointers to other types reach: none, those of its number, those of its string.
+  enum class View : std::uint32_t { none, number, string } view = View::none;
+  std::uint32_t element = 0, count = 1, cells = 1, bytes = 1;
+  std::uint32_t form = 0;  ///< of a number, as in Op::narrow
+  bool operator==(const Pointed&) const = default;
+};
+
 struct ByteCode {
   std::vector<Instruction> code;
   std::vector<Routine> routines;
   std::vector<Range> ranges;
   std::vector<Assertion> assertions;
+  std::vector<Pointed> pointed;
   std::vector<Entry> entries;
   std::vector<std::uint64_t> initial;   ///< memory at the start; its size is the size of the memory
   std::vector<std::uint32_t> timers;    ///< addresses of pairs (end in ns, running) of timers
@@ -88,5 +99,6 @@ std::optional<ByteCode> decode(std::span<const std::uint8_t> bytes);
 inline constexpr std::int64_t task_budget = 100000;
 inline constexpr std::uint32_t most_cells = 1u << 20;
 inline constexpr std::uint32_t most_instructions = 1u << 22;
+inline constexpr std::uint32_t most_pointed = 1u << 15;
 
 }  // namespace trunnion::st

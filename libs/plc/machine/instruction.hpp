@@ -11,7 +11,8 @@ namespace trunnion::st {
 /// bits. The operands a, b, c are cells of the frame of the running routine unless their kind says otherwise.
 ///
 /// Kinds: w cell written, r cell read, i number, t place in the code, g address in memory, p routine,
-/// d entry of the table of ranges, x entry of the table of assertions, - unused. `n` is described per row.
+/// d entry of the table of ranges, x entry of the table of assertions, o entry of the table of what pointers
+/// reach, - unused. `n` is described per row.
 // clang-format off
 #define TRUNNION_ST_INSTRUCTIONS(X)                                                                     \
   X(statement, -, -, -)        /* counts one statement */                                              \
@@ -60,7 +61,13 @@ namespace trunnion::st {
   X(to_bcd, w, r, -)           /* a = the last 16 decimal digits of b */                               \
   X(is_bcd, w, r, -)           /* a = every digit of b is below 10 */                                  \
   X(swap_bytes, w, r, -)       /* n: as narrow; the bytes of b in reverse order */                     \
-  X(check_limits, w, r, r)     /* a = b - c; a fault outside c .. the cell behind c */
+  X(check_limits, w, r, r)     /* a = b - c; a fault outside c .. the cell behind c */                 \
+  X(point, w, r, o)            /* a = pointer to the variable at the address in b */                   \
+  X(point_move, w, r, r)       /* a = pointer b moved by c bytes, of c the low 32 bits with sign */     \
+  X(point_number, w, r, -)     /* a = the number of pointer b, by which pointers are compared */       \
+  X(point_load, w, r, o)       /* a = value at pointer b */                                            \
+  X(point_save, r, r, o)       /* value at pointer b = a; counts one statement */                      \
+  X(point_cells, w, r, o)      /* a = address of the value at pointer b, of the same elements */
 // clang-format on
 
 enum class Op : std::uint16_t {

@@ -8,34 +8,11 @@
 #include <stdexcept>
 
 #include "plc/machine/arithmetic.hpp"
+#include "plc/machine/pointer.hpp"
 #include "plc/machine/strings.hpp"
 #include "plc/machine/verify.hpp"
 
 namespace trunnion::st {
-
-std::string text_of(const Fault& fault) {
-  const auto limits = [&] {
-    return std::to_string(fault.value) + " is outside " + std::to_string(fault.low) + " .. " +
-           std::to_string(fault.high);
-  };
-  switch (fault.kind) {
-    case FaultKind::none:
-      return "";
-    case FaultKind::division:
-      return "division by zero";
-    case FaultKind::index:
-      return "index " + limits() + " of the array";
-    case FaultKind::range:
-      return "value " + limits() + " of the type";
-    case FaultKind::budget:
-      return "more than " + std::to_string(fault.value) + " statements in one run";
-    case FaultKind::reference:
-      return "a reference to no variable";
-    case FaultKind::assertion:
-      return "the assertion is not met";
-  }
-  return "";
-}
 
 const char* name_of(Op op) {
   static constexpr std::array names = std::to_array<const char*>({
@@ -443,6 +420,23 @@ Fault Machine::execute(std::size_t entry, std::int64_t now, std::int64_t budget,
         if (!query_string(static_cast<StringFunction>(in.n & ~wide_flag), (in.n & wide_flag) != 0, memory_,
                           m + in.b, m[in.a]))
           stop(FaultKind::reference);
+        break;
+      case Op::point:
+        m[in.a] = pointer_cell(m[in.b], static_cast<std::uint32_t>(in.c));
+        continue;
+      case Op::point_move:
+        m[in.a] = pointer_moved(m[in.b], m[in.c]);
+        continue;
+      case Op::point_number:
+        m[in.a] = pointer_number(m[in.b]);
+        continue;
+      case Op::point_save:
+        --left;
+        [[fallthrough]];
+      case Op::point_load:
+      case Op::point_cells:
+        if (const auto found = use_pointer(in, code_->pointed, memory_, m); found.kind != FaultKind::none)
+          stop(found.kind, found.value, found.low, found.high);
         break;
       case Op::assert_:
         if (m[in.a] == 0) stop(FaultKind::assertion, in.b);

@@ -9,28 +9,9 @@
 #include <string>
 
 #include "plc/machine/byte_code.hpp"
+#include "plc/machine/fault.hpp"
 
 namespace trunnion::st {
-
-enum class FaultKind : std::uint32_t {
-  none,
-  division,   ///< of integers by zero
-  index,      ///< of an array
-  range,      ///< of a subrange
-  budget,     ///< more statements than permitted
-  reference,  ///< an address outside the memory
-  assertion,
-};
-
-/// Why a run has stopped before its end.
-struct Fault {
-  FaultKind kind = FaultKind::none;
-  std::uint32_t instruction = 0;
-  std::int64_t value = 0, low = 0, high = 0;  ///< of index and range
-};
-
-/// "division by zero", "index 12 is outside 0 .. 9" ...
-std::string text_of(const Fault& fault);
 
 /// Where a run was interrupted, so that the next one continues there. All zero: it begins.
 struct Progress {

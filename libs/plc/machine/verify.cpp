@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace trunnion::st {
 namespace {
@@ -38,11 +39,41 @@ class Verifier {
     for (const auto& range : code_.ranges)
       if (range.stride < 0 || range.stride > most_cells || range.low > range.high)
         return "a range has the limits " + std::to_string(range.low) + " .. " + std::to_string(range.high);
-    return "";
+    return pointed();
   }
 
  private:
   bool fits(std::uint64_t first, std::uint64_t count) const { return first + count <= code_.initial.size(); }
+
+  /// Pointers to the same element may take its cells for those of theirs.
+  std::string pointed() const {
+    if (code_.pointed.size() > most_pointed) return "there are too many variables of pointers";
+    std::map<std::uint32_t, Pointed> elements;
+    for (auto entry : code_.pointed) {
+      const bool good =
+          entry.count > 0 && element_fits(entry) && std::uint64_t{entry.count} * entry.cells <= most_cells;
+      entry.count = 1;
+      if (!good || elements.emplace(entry.element, entry).first->second != entry)
+        return "a variable of pointers has wrong elements";
+    }
+    return "";
+  }
+
+  static bool element_fits(const Pointed& entry) {
+    if (entry.cells == 0 || entry.cells > most_cells || entry.bytes == 0 ||
+        entry.bytes > std::uint64_t{8} * entry.cells)
+      return false;
+    const auto bits = entry.form & 127u;
+    switch (entry.view) {
+      case Pointed::View::none:
+        return true;
+      case Pointed::View::number:
+        return entry.cells == 1 && entry.form < 256 && width(bits) && entry.bytes == (bits + 7) / 8;
+      case Pointed::View::string:
+        return entry.bytes - 1 <= 8 * (entry.cells - 1);
+    }
+    return false;
+  }
 
   std::string routine(std::size_t number) const {
     const auto& r = code_.routines[number];
@@ -86,6 +117,8 @@ class Verifier {
         return u < code_.assertions.size() &&
                static_cast<std::uint32_t>(code_.assertions[u].actual) < r.frame &&
                static_cast<std::uint32_t>(code_.assertions[u].expected) < r.frame;
+      case 'o':
+        return u < code_.pointed.size();
       default:
         return true;
     }
@@ -97,6 +130,9 @@ class Verifier {
 
   bool number_n(const Instruction& in, const Routine& r) const {
     switch (in.op) {
+      case Op::point_load:
+      case Op::point_save:
+        return code_.pointed[static_cast<std::uint32_t>(in.c)].cells == 1;
       case Op::narrow:
       case Op::d_round:
       case Op::d_truncate:

@@ -16,6 +16,8 @@ namespace trunnion::st {
 bool is_parameter(const Variable& variable, const Pou& pou);
 /// Whether it is a register.
 bool is_in_image(const Place& place);
+/// The name or value of which the expression is a part.
+const Expression& root_of(const Expression& e);
 
 class Lowering {
  public:
@@ -47,6 +49,8 @@ class Lowering {
   Value part(const Expression& e);
   Value dereference(const Expression& e);
   Value index(const Expression& e);
+  /// parts[1..] of the index are those of the element of `value`.
+  Value element(const Expression& e, Value value);
   Value index_number(const Expression& e);
   Value open_element(const Expression& e, Value value);
   void add_limits(const Value& array, std::vector<std::int32_t>& cells);
@@ -93,6 +97,23 @@ class Lowering {
   bool is_inherited(const Variable& variable) const;
   std::string hidden(const Variable& variable) const;
   std::string scope_problem(const Expression& name) const;
+
+  // pointers
+  std::optional<Value> pointer_function(const Expression& e);
+  Value refused_incomplete(const Type& type, Position at);
+  Value size_of(const Expression& of);
+  Value pointer_to(const Expression& of);
+  Value pointer_of(const Value& value);
+  Value pointed_by(const Value& pointer, Position at);
+  std::string pointing(const Expression& of, const Value& value);
+  bool is_of_method(const Variable& variable) const;
+  std::int32_t moved_pointer(const Place& place);
+  Value located(Value value);
+  Value converted_to_pointer(const Value& value, const Type& to, Position at);
+  Value number_of_pointer(const Value& pointer);
+  Value pointer_arithmetic(const std::string& op, const Value& left, const Value& right, Position at);
+  bool number_pointers(const std::string& op, Value& left, Value& right, Position at);
+  bool check_pointed(const Expression& argument, const Variable& parameter);
 
   // places
   std::int32_t cell(const Value& value, const Type& type);

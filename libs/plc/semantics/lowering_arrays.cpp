@@ -16,8 +16,9 @@ Value Lowering::index_number(const Expression& e) {
   return failed(e.at, "an index is a whole number, not " + number.type->name);
 }
 
-Value Lowering::index(const Expression& e) {
-  auto value = expression(*e.parts[0]);
+Value Lowering::index(const Expression& e) { return element(e, expression(*e.parts[0])); }
+
+Value Lowering::element(const Expression& e, Value value) {
   if (value.is_error()) return value;
   if (value.type->kind != Kind::array)
     return failed(e.at, value.type->name + " is no array and has no index");
@@ -27,7 +28,8 @@ Value Lowering::index(const Expression& e) {
                             (type.dimensions.size() == 1 ? " dimension, not " : " dimensions, not ") +
                             std::to_string(e.parts.size() - 1));
   if (type.open) return open_element(e, value);
-  std::int64_t stride = type.cells, offset = 0;
+  const bool pointed = value.place.base == Place::Base::pointer;
+  std::int64_t stride = pointed ? static_cast<std::int64_t>(bytes_of(type)) : type.cells, offset = 0;
   std::optional<std::int32_t> sum;
   bool good = true;
   for (std::size_t i = 0; i < type.dimensions.size(); ++i) {
@@ -50,6 +52,9 @@ Value Lowering::index(const Expression& e) {
       offset += (number.integer - dimension.low) * stride;
       continue;
     }
+    if (stride > most_cells)
+      return failed(at, "the elements have more than " + std::to_string(most_cells) +
+                            " bytes, too many for the index behind a pointer");
     const auto source = cell(number);
     const auto scaled = emit_.temporary();
     emit_.place(at);
@@ -65,7 +70,11 @@ Value Lowering::index(const Expression& e) {
   value.place = moved(value.place, static_cast<std::int32_t>(offset));
   if (value.place.base == Place::Base::absolute && sum)
     unit_.use_register(static_cast<std::uint32_t>(value.place.offset - offset), type.cells, false);
-  if (sum) {
+  if (sum && pointed) {
+    const auto result = emit_.temporary();
+    emit_.add(Op::point_move, result, moved_pointer(value.place), *sum);
+    value.place.cell = result, value.place.offset = 0;
+  } else if (sum) {
     auto place = value.place;
     if (place.base == Place::Base::absolute)
       unit_.use_register(static_cast<std::uint32_t>(place.offset - offset), type.cells, true);

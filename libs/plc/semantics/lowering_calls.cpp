@@ -49,7 +49,8 @@ const Type* Lowering::instance_type(const Expression& e) const {
   if (e.kind != Expression::Kind::index && e.kind != Expression::Kind::member && !follows) return nullptr;
   const auto* owner = instance_type(*e.parts[0]);
   if (owner == nullptr) return nullptr;
-  if (follows) return owner->kind == Kind::reference ? owner->element : nullptr;
+  if (follows)
+    return owner->kind == Kind::reference || owner->kind == Kind::pointer ? owner->element : nullptr;
   if (e.kind == Expression::Kind::index) return owner->kind == Kind::array ? owner->element : nullptr;
   if (owner->kind == Kind::structure) {
     const auto* field = owner->field(e.name);
@@ -141,6 +142,7 @@ Value Lowering::plain_call(const Expression& e, const Type* expected) {
       }
     }
     if (auto value = reference_of(e)) return *value;
+    if (auto value = pointer_function(e)) return *value;
     if (auto value = array_bound(e, expected)) return *value;
     if (auto value = ladder_function(e)) return *value;
     if (auto value = standard_function(e, expected)) return *value;
@@ -159,7 +161,7 @@ Value Lowering::plain_call(const Expression& e, const Type* expected) {
   if (block.state == Pou::State::in_progress &&
       unit_.translated(block.declaration->name, callee.at) == nullptr)
     return error();
-  call_block(instance, e);
+  call_block(located(instance), e);
   return none;
 }
 
@@ -237,8 +239,9 @@ std::vector<std::int32_t> Lowering::reference(const Argument& argument, const Va
         at, "VAR_IN_OUT '" + parameter.text + "' is " + parameter.type->name + ", not " + value.type->name);
     return {0};
   }
+  if (!check_pointed(*argument.value, parameter)) return {0};
   mark_written(value);
-  std::vector<std::int32_t> cells{address(value.place)};
+  std::vector<std::int32_t> cells{address(value)};
   if (parameter.type->open) add_limits(value, cells);
   return cells;
 }

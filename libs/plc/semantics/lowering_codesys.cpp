@@ -67,6 +67,7 @@ std::optional<Value> Lowering::converted_freely(const Value& value, const Type& 
     return constant_integer(&to, static_cast<std::int64_t>(narrowed(static_cast<std::uint64_t>(value.integer),
                                                                     cell_form(to.kind))));
   }
+  if (from == Kind::pointer && bits_of_to) return converted_to(number_of_pointer(value), to, false, at);
   if (from >= Kind::string || (to.kind == Kind::boolean) != (from == Kind::boolean)) return std::nullopt;
   return converted_to(value, to, false, at);
 }

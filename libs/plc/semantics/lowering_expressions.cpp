@@ -251,6 +251,8 @@ Value Lowering::operation(Op op, const Type* type, const Value& left, const Valu
 }
 
 Value Lowering::arithmetic(const std::string& op, Value left, Value right, Position at) {
+  if (left.type->kind == Kind::pointer || right.type->kind == Kind::pointer)
+    return pointer_arithmetic(op, left, right, at);
   mix(op, left, right, at);
   const auto timed = [](const Value& v) { return is_duration(v.type->kind) || is_date(v.type->kind); };
   if (timed(left) || timed(right)) return time_arithmetic(op, left, right, at);
@@ -391,6 +393,7 @@ Value Lowering::time_arithmetic(const std::string& op, const Value& left, const 
 
 Value Lowering::comparison(const std::string& op, Value left, Value right, Position at) {
   const auto* boolean = elementary(Kind::boolean);
+  if (!number_pointers(op, left, right, at)) return error();
   mix(op, left, right, at);
   if (left.type->kind == Kind::string && right.type->kind == Kind::string &&
       left.type->wide == right.type->wide)

@@ -20,7 +20,7 @@ Value Lowering::converted_to_interface(const Value& value, const Type& to, Posit
   auto result = temporary(&to);
   const auto number = emit_.temporary();
   emit_.constant(number, unit_.implementer_number(*value.type->block->pou) << address_bits);
-  emit_.add(Op::or_, result.place.offset, address(value.place), number);
+  emit_.add(Op::or_, result.place.offset, address(value), number);
   return result;
 }
 
@@ -108,7 +108,8 @@ void Lowering::end_dispatch() {
 void Lowering::attempt(const Value& target, const Value& value, Position at) {
   if (target.type->kind == Kind::reference) return attempt_reference(target, value, at);
   const auto kind = value.type->kind;
-  if (target.type->kind != Kind::interface_ || !(kind == Kind::block || is_reference(kind))) {
+  if (target.type->kind != Kind::interface_ || !(kind == Kind::block || is_reference(kind)) ||
+      kind == Kind::pointer) {
     failed(at, "?= is for references and variables of an interface");
     return;
   }

@@ -133,7 +133,7 @@ Value Lowering::call_method(const MethodCall& called, const Expression& e) {
     auto access = writing();
     access.calls = true;
     note(*called.of, instance, access);
-    place = instance.place;
+    place = located(instance).place;
   }
   const auto* method = unit_.method(*called.instance, called.method, at);
   return method == nullptr ? error() : call_with_frame(*method, address(place), e);

@@ -142,6 +142,7 @@ Value Lowering::member(const Expression& e) {
       if (const auto* enumerator = type->enumerator(e.name)) return constant_integer(type, enumerator->value);
   auto value = expression(owner);
   if (value.is_error()) return value;
+  value = located(value);
   value.variable = nullptr;
   if (value.type->kind == Kind::structure) {
     const auto* field = value.type->field(e.name);
@@ -186,6 +187,7 @@ Value Lowering::part(const Expression& e) {
   auto value = expression(*e.parts[0]);
   if (value.is_error()) return value;
   if (value.is_constant) return failed(e.at, "a part of a constant is not accessible");
+  value = located(value);
   const auto kind = value.type->kind;
   const int whole = bits(kind);
   const bool of_bits = is_bits(kind) && whole >= 8;

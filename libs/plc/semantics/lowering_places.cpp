@@ -123,6 +123,7 @@ std::int32_t Lowering::address(const Place& place) {
       break;
     }
     case Place::Base::none:
+    case Place::Base::pointer:  // located() gives it an address
       emit_.constant(result, 0);
       break;
   }
@@ -130,7 +131,7 @@ std::int32_t Lowering::address(const Place& place) {
 }
 
 std::int32_t Lowering::address(const Value& value) {
-  if (!value.is_constant) return address(value.place);
+  if (!value.is_constant) return address(located(value).place);
   const auto result = emit_.temporary();
   emit_.constant(result, unit_.string_constant(value.text));
   return result;
@@ -140,6 +141,10 @@ std::int32_t Lowering::address(const Value& value) {
 std::int32_t Lowering::load(const Place& place, const Type& type) {
   if (place.base == Place::Base::frame && place.bit < 0 && place.form == 0) return place.offset;
   const auto result = emit_.temporary();
+  if (place.base == Place::Base::pointer) {
+    emit_.add(Op::point_load, result, moved_pointer(place), unit_.pointed(type));
+    return result;
+  }
   auto raw = place.offset;
   if (place.base != Place::Base::frame) {
     raw = result;
@@ -210,6 +215,9 @@ void Lowering::store_cell(const Place& place, const Type& type, std::int32_t sou
     case Place::Base::indirect:
       emit_.add(Op::save_at, source, place.cell, place.offset);
       break;
+    case Place::Base::pointer:
+      emit_.add(Op::point_save, source, moved_pointer(place), unit_.pointed(type));
+      break;
     case Place::Base::none:
       break;
   }
@@ -236,7 +244,7 @@ void Lowering::store(const Value& target, const Value& value) {
 }
 
 void Lowering::copy(const Value& target, const Value& value) {
-  const auto to = address(target.place);
+  const auto to = address(target);
   const auto from = address(value);
   if (target.type->kind == Kind::string && (value.is_constant || value.type->length != target.type->length))
     emit_.add(Op::string_make, to, from, static_cast<std::int32_t>(target.type->length),
@@ -275,6 +283,7 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
   if (from == Kind::null_ && to.kind == Kind::reference)
     return constant_integer(&to, static_cast<std::int64_t>(null_reference));
   if (to.kind == Kind::interface_) return converted_to_interface(value, to, at);
+  if (to.kind == Kind::pointer) return converted_to_pointer(value, to, at);
   if (from == Kind::integer_literal) {
     const bool number = is_integer(to.kind) || (is_bits(to.kind)) || to.kind == Kind::integer_literal;
     if (number) {

@@ -15,8 +15,10 @@ constexpr const char* register_refusal = "a register has no reference; copy it t
 Value Lowering::dereference(const Expression& e) {
   const auto value = kept(expression(*e.parts[0]));
   if (value.is_error()) return value;
-  if (value.type->kind != Kind::reference || value.type->element == nullptr)
+  const bool points = value.type->kind == Kind::pointer;
+  if ((value.type->kind != Kind::reference && !points) || value.type->element == nullptr)
     return failed(e.at, value.type->name + " is no reference, so it has no '^'");
+  if (points) return pointed_by(value, e.at);
   Value result;
   result.type = value.type->element;
   result.place = {Place::Base::indirect, 0, cell(value), -1, 0, 0, true, ""};
@@ -25,10 +27,7 @@ Value Lowering::dereference(const Expression& e) {
 
 /// Why a reference must not name the variable, or nothing.
 std::string Lowering::passing(const Expression& e) const {
-  const auto* root = &e;
-  while (root->kind == Expression::Kind::member || root->kind == Expression::Kind::index ||
-         root->kind == Expression::Kind::part)
-    root = root->parts[0].get();
+  const auto* root = &root_of(e);
   if (root->kind == Expression::Kind::direct) return register_refusal;
   if (root->kind != Expression::Kind::name) return "";
   const auto* variable = own_variable(*root);
@@ -64,14 +63,14 @@ std::optional<Value> Lowering::reference_of(const Expression& e) {
   const auto* type = unit_.reference_type(*value.type);
   if (value.place.base == Place::Base::absolute) return constant_integer(type, value.place.offset);
   auto result = temporary(type);
-  emit_.add(Op::move, result.place.offset, address(value.place));
+  emit_.add(Op::move, result.place.offset, address(value));
   return result;
 }
 
 /// ?=: of a reference of the same type, or of an instance of the block that the target refers to; else NULL.
 void Lowering::attempt_reference(const Value& target, const Value& value, Position at) {
   const auto& element = *target.type->element;
-  if (!is_reference(value.type->kind)) {
+  if (!is_reference(value.type->kind) || value.type->kind == Kind::pointer) {
     failed(at, "?= takes a reference or a variable of an interface, not " + value.type->name);
     return;
   }

@@ -8,14 +8,6 @@
 namespace trunnion::st {
 namespace {
 
-const Expression& root_of(const Expression& e) {
-  const auto* root = &e;
-  while (root->kind == Expression::Kind::member || root->kind == Expression::Kind::index ||
-         root->kind == Expression::Kind::part)
-    root = root->parts[0].get();
-  return *root;
-}
-
 std::string members_of(const Expression& e) {
   std::string text;
   for (const auto* part = &e; part->kind == Expression::Kind::member ||
@@ -32,6 +24,14 @@ std::string text_of(const Place& place) {
 }
 
 }  // namespace
+
+const Expression& root_of(const Expression& e) {
+  const auto* root = &e;
+  while (root->kind == Expression::Kind::member || root->kind == Expression::Kind::index ||
+         root->kind == Expression::Kind::part)
+    root = root->parts[0].get();
+  return *root;
+}
 
 bool is_in_image(const Place& place) {
   return place.base == Place::Base::absolute && static_cast<std::uint32_t>(place.offset) < image_cells;

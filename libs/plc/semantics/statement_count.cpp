@@ -73,6 +73,7 @@ class LongestWay {
     auto next = at;
     switch (in.op) {
       case Op::statement:
+      case Op::point_save:
         next = sum(at, 1);
         break;
       case Op::copy_block:

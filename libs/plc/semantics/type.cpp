@@ -129,13 +129,46 @@ bool is_duration(Kind kind) { return kind == Kind::time || kind == Kind::ltime; 
 bool is_date(Kind kind) { return kind == Kind::date || kind == Kind::tod || kind == Kind::dt; }
 bool is_elementary(Kind kind) { return kind < Kind::string || kind == Kind::enumeration; }
 bool is_reference(Kind kind) {
-  return kind == Kind::interface_ || kind == Kind::reference || kind == Kind::null_;
+  return kind == Kind::interface_ || kind == Kind::reference || kind == Kind::pointer || kind == Kind::null_;
 }
 bool is_one_cell(Kind kind) { return is_elementary(kind) || is_reference(kind); }
 
 int bits(Kind kind) {
   const auto* r = row(kind);
   return kind == Kind::enumeration ? 32 : r != nullptr ? r->bits : 64;
+}
+
+const Type& innermost(const Type& type) { return type.kind == Kind::array ? innermost(*type.element) : type; }
+
+bool has_bytes(const Type& type) {
+  if (type.kind == Kind::string) return !type.wide;
+  return !type.ranged && (is_integer(type.kind) || is_bits(type.kind) || is_real(type.kind));
+}
+
+std::uint64_t bytes_of(const Type& type) {
+  switch (type.kind) {
+    case Kind::array:
+      return type.cells / std::max<std::uint32_t>(type.element->cells, 1) * bytes_of(*type.element);
+    case Kind::structure: {
+      std::uint64_t bytes = 0;
+      for (const auto& field : type.fields) bytes += bytes_of(*field.type);
+      return bytes;
+    }
+    case Kind::string:
+      return (type.wide ? 2u : 1u) * std::uint64_t{type.length + 1};
+    case Kind::block:
+      return 8 * std::uint64_t{type.cells};
+    case Kind::time:
+    case Kind::date:
+    case Kind::tod:
+    case Kind::dt:
+    case Kind::interface_:
+    case Kind::reference:
+    case Kind::pointer:
+      return 4;
+    default:
+      return static_cast<std::uint64_t>(std::max(bits(type.kind) / 8, 1));
+  }
 }
 
 std::uint16_t cell_form(Kind kind) {
@@ -175,8 +208,7 @@ bool same_type(const Type& a, const Type& b) {
     };
     return a.open == b.open && a.dimensions.size() == b.dimensions.size() &&
            std::equal(a.dimensions.begin(), a.dimensions.end(), b.dimensions.begin(), equal) &&
-           same_type(*a.element, *b.element) && a.element->ranged == b.element->ranged &&
-           a.element->low == b.element->low && a.element->high == b.element->high;
+           same_limited_type(*a.element, *b.element);
   }
   // A type with an initial value of its own is the same type.
   const auto named = [](const auto& x, const auto& y) { return x.name == y.name; };
@@ -186,12 +218,14 @@ bool same_type(const Type& a, const Type& b) {
   if (a.kind == Kind::enumeration)
     return a.name == b.name && std::equal(a.enumerators.begin(), a.enumerators.end(), b.enumerators.begin(),
                                           b.enumerators.end(), named);
-  if (a.kind == Kind::reference && (a.element == nullptr || b.element == nullptr)) return false;
-  if (a.kind == Kind::reference)
-    return same_type(*a.element, *b.element) && a.element->ranged == b.element->ranged &&
-           a.element->low == b.element->low && a.element->high == b.element->high;
+  if (a.kind == Kind::reference || a.kind == Kind::pointer)
+    return a.element != nullptr && b.element != nullptr && same_limited_type(*a.element, *b.element);
   if (a.kind == Kind::interface_) return a.interface == b.interface;
   return a.kind == Kind::block && a.block == b.block;
+}
+
+bool same_limited_type(const Type& a, const Type& b) {
+  return same_type(a, b) && a.ranged == b.ranged && a.low == b.low && a.high == b.high;
 }
 
 bool fits_parameter(const Type& value, const Type& parameter) {

@@ -38,6 +38,7 @@ enum class Kind : std::uint8_t {
   block,
   interface_,       ///< one cell: the place of an instance and which block it is of; see null_reference
   reference,        ///< one cell: the address of a variable of the type `element`
+  pointer,          ///< one cell: POINTER TO `element`, see machine/pointer.hpp
   null_,            ///< NULL
   integer_literal,  ///< takes the type of what it meets
   real_literal,
@@ -102,10 +103,18 @@ bool is_bits(Kind kind);      ///< BOOL .. LWORD
 bool is_duration(Kind kind);  ///< TIME, LTIME
 bool is_date(Kind kind);      ///< DATE, TOD, DT
 bool is_elementary(Kind kind);
-bool is_reference(Kind kind);  ///< REF_TO, of an interface, NULL
+bool is_reference(Kind kind);  ///< REF_TO, POINTER TO, of an interface, NULL
 bool is_one_cell(Kind kind);   ///< elementary or a reference
 /// Bits of an integer, bit string or enumeration.
 int bits(Kind kind);
+/// SIZEOF: what a variable has for pointers, not the cells of the machine.
+std::uint64_t bytes_of(const Type& type);
+/// Of arrays the type of their elements, which are no arrays.
+const Type& innermost(const Type& type);
+/// Without regard to initial values, but to limits.
+bool same_limited_type(const Type& a, const Type& b);
+/// Pointers to other types reach its bytes: a number, a bit string, a STRING.
+bool has_bytes(const Type& type);
 /// `n` of Op::narrow: bits and sign.
 std::uint16_t cell_form(Kind kind);
 /// Whether a literal integer is a value of the type; `negative` is its sign.

@@ -35,6 +35,7 @@ struct Variable {
   Place place;  ///< of in_out: the cell of the address
   bool used = false;
   std::vector<std::uint64_t> initial;  ///< cells
+  bool pointed = false;                ///< of in_out: it has pointers, which may be used later than the call
   const Pou* declared_in = nullptr;    ///< of an instance of a function block: the block that declares it
   Access access = Access::protected_;
 };
@@ -112,7 +113,10 @@ class Unit {
   const Type* type_of(const TypeSpec& spec, Pou* context);
   const Type* named_type(const std::string& upper);
   const Type* string_type(std::uint32_t length, bool wide = false);
-  const Type* reference_type(const Type& element);
+  /// REF_TO or POINTER TO.
+  const Type* reference_type(const Type& element, Kind kind = Kind::reference);
+  /// The entry of ByteCode::pointed for variables of the type.
+  std::int32_t pointed(const Type& type);
   /// The value of a constant expression, converted to the type; false when it is none, which is reported.
   bool constant(const Expression& expression, const Type& type, Pou* context, Value& value);
   /// Cells of an initial value.
@@ -179,7 +183,7 @@ class Unit {
   const Type* enumeration(const TypeSpec& spec, const std::string& name);
   const Type* array(const TypeSpec& spec, Pou* context);
   const Type* open_array(const TypeSpec& spec, const Type* element);
-  const Type* reference(const TypeSpec& element, Pou* context);
+  const Type* reference(const TypeSpec& element, Kind kind, Pou* context);
   const Type* named(const std::string& upper, const Type* type);
   const Type* structure(const TypeSpec& spec, const std::string& name, Pou* context);
   const Type* subrange(const TypeSpec& spec, const Type* base, Pou* context);
@@ -222,7 +226,8 @@ class Unit {
   std::map<std::string, const Type*, std::less<>> named_;
   std::map<std::string, const TypeDeclaration*, std::less<>> declared_;
   std::set<std::string> in_progress_;
-  std::map<const Type*, const Type*> references_to_;
+  std::map<std::pair<const Type*, Kind>, const Type*> references_to_;
+  std::vector<const Type*> pointed_types_;  ///< Pointed::element is the place of a type here
   std::vector<std::pair<Type*, std::string>> open_references_;  ///< to types that contain them
   const TypeSpec* in_out_spec_ = nullptr;                       ///< of the VAR_IN_OUT that is declared
   std::map<std::pair<std::uint32_t, bool>, const Type*> strings_;

@@ -12,10 +12,12 @@ namespace {
 constexpr std::uint32_t default_string = 80;
 constexpr std::int64_t most_elements = 1 << 19;
 
+const char* word_of(Kind kind) { return kind == Kind::pointer ? "POINTER TO " : "REF_TO "; }
+
 /// Through references and arrays alone, so that there is no variable behind them.
 bool leads_to(const Type* from, const Type* to) {
   const auto leads = [](const Type& type) {
-    return type.kind == Kind::reference || type.kind == Kind::array;
+    return type.kind == Kind::reference || type.kind == Kind::pointer || type.kind == Kind::array;
   };
   while (from != nullptr && from != to && leads(*from)) from = from->element;
   return from == to;
@@ -72,22 +74,22 @@ const Type* Unit::named(const std::string& upper, const Type* type) {
 }
 
 /// A structure or function block may contain a reference to its own type, as the elements of a list do.
-const Type* Unit::reference(const TypeSpec& element, Pou* context) {
+const Type* Unit::reference(const TypeSpec& element, Kind kind, Pou* context) {
   const bool is_named = element.kind == TypeSpec::Kind::named && !element.low;
   if (auto* pou = is_named ? find_pou(element.name) : nullptr;
       pou != nullptr && pou->declaration->kind == PouKind::function_block &&
       pou->state == Pou::State::in_progress)
-    return reference_type(pou->type);
+    return reference_type(pou->type, kind);
   if (is_named && in_progress_.contains(element.name) && !named_.contains(element.name)) {
     auto& type = types_.emplace_back();
-    type.kind = Kind::reference;
-    type.name = "REF_TO " + element.text;
+    type.kind = kind;
+    type.name = word_of(kind) + element.text;
     type.initial = {null_reference};
     open_references_.emplace_back(&type, element.name);
     return &type;
   }
   const auto* type = build(element, "", context);
-  return type->kind == Kind::error ? type : reference_type(*type);
+  return type->kind == Kind::error ? type : reference_type(*type, kind);
 }
 
 const Type* Unit::string_type(std::uint32_t length, bool wide) {
@@ -105,17 +107,43 @@ const Type* Unit::string_type(std::uint32_t length, bool wide) {
   return known;
 }
 
-const Type* Unit::reference_type(const Type& element) {
-  auto& known = references_to_[&element];
+const Type* Unit::reference_type(const Type& element, Kind kind) {
+  auto& known = references_to_[{&element, kind}];
   if (known == nullptr) {
     auto& type = types_.emplace_back();
-    type.kind = Kind::reference;
-    type.name = "REF_TO " + element.name;
+    type.kind = kind;
+    type.name = word_of(kind) + element.name;
     type.element = &element;
     type.initial = {null_reference};
     known = &type;
   }
   return known;
+}
+
+std::int32_t Unit::pointed(const Type& type) {
+  const auto& element = innermost(type);
+  const auto known = std::find_if(pointed_types_.begin(), pointed_types_.end(),
+                                  [&](const Type* other) { return same_limited_type(*other, element); });
+  Pointed entry;
+  entry.element = static_cast<std::uint32_t>(known - pointed_types_.begin());
+  if (known == pointed_types_.end()) pointed_types_.push_back(&element);
+  entry.cells = std::max<std::uint32_t>(element.cells, 1);
+  // A program without variables has no cells.
+  entry.count = std::max<std::uint32_t>(type.cells / entry.cells, 1);
+  entry.bytes = std::max<std::uint32_t>(static_cast<std::uint32_t>(bytes_of(element)), 1);
+  const bool is_number = has_bytes(element) && element.kind != Kind::string;
+  if (has_bytes(element)) entry.view = is_number ? Pointed::View::number : Pointed::View::string;
+  if (is_number) entry.form = cell_form(element.kind);
+  const auto found = std::find(code.pointed.begin(), code.pointed.end(), entry);
+  if (found != code.pointed.end()) return static_cast<std::int32_t>(found - code.pointed.begin());
+  if (code.pointed.size() == most_pointed) {
+    if (diagnostics_.errors() == 0)
+      diagnostics_.error({library_files_, 1, 1}, "pointers reach variables of more than " +
+                                                     std::to_string(most_pointed) + " types and sizes");
+    return 0;
+  }
+  code.pointed.push_back(entry);
+  return static_cast<std::int32_t>(code.pointed.size() - 1);
 }
 
 const Type* Unit::type_of(const TypeSpec& spec, Pou* context) { return build(spec, "", context); }
@@ -129,7 +157,9 @@ const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* cont
     case TypeSpec::Kind::array:
       return array(spec, context);
     case TypeSpec::Kind::reference:
-      return reference(*spec.element, context);
+      return reference(*spec.element, Kind::reference, context);
+    case TypeSpec::Kind::pointer:
+      return reference(*spec.element, Kind::pointer, context);
     case TypeSpec::Kind::string: {
       const bool wide = spec.name == "WSTRING";
       const auto longest = wide ? longest_wide_string : longest_string;

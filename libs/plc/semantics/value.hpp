@@ -13,10 +13,10 @@ struct Variable;
 
 /// Where a variable or an intermediate result is.
 struct Place {
-  enum class Base { none, frame, absolute, indirect };
+  enum class Base { none, frame, absolute, indirect, pointer };
   Base base = Base::none;
   std::int32_t offset = 0;  ///< cells: in the frame, in memory, or behind the address in `cell`
-  std::int32_t cell = 0;    ///< frame cell that holds the address, of indirect
+  std::int32_t cell = 0;    ///< frame cell with the address, or the pointer; of that `offset` is bytes
   int bit = -1, width = 0;  ///< of a partial access: first bit and bits
   std::uint16_t form = 0;   ///< of a register whose cell has another form than the type; see Op::narrow
   bool writable = false;

@@ -114,7 +114,7 @@ struct VariableDeclaration {
 };
 
 struct TypeSpec {
-  enum class Kind { named, array, string, structure, enumeration, reference };
+  enum class Kind { named, array, string, structure, enumeration, reference, pointer };
   struct Dimension {
     ExpressionPtr low, high;  ///< of ARRAY[*] none
   };
@@ -128,7 +128,7 @@ struct TypeSpec {
   std::string name, text;   ///< of named; of an enumeration the type of its values, if it says one
   ExpressionPtr low, high;  ///< of a subrange
   std::vector<Dimension> dimensions;
-  TypeSpecPtr element;   ///< of an array or a reference
+  TypeSpecPtr element;   ///< of an array, a reference or a pointer
   ExpressionPtr length;  ///< of a string
   std::vector<VariableDeclaration> fields;
   std::vector<Enumerator> enumerators;

@@ -191,15 +191,6 @@ ExpressionPtr ExpressionParser::typed_literal() {
   return node;
 }
 
-void ExpressionParser::refuse_pointer() {
-  if (!has_refused_pointer_)
-    diagnostics_.error(
-        now().at,
-        "there are no pointers; write REF_TO, pass the variable as VAR_IN_OUT, and take bytes of a string "
-        "with MID");
-  has_refused_pointer_ = true;
-}
-
 /// THIS. and SUPER., with or without ^ behind the word; a variable may have these names.
 bool ExpressionParser::at_scoped_name() const {
   const auto& next = ahead();

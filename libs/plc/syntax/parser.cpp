@@ -94,9 +94,9 @@ TypeSpecPtr DeclarationParser::type_spec() {
     spec->kind = TypeSpec::Kind::reference;
     spec->element = type_spec();
   } else if (is_word("POINTER") && ahead().upper == "TO") {
-    refuse_pointer();
     take(), take();
-    return type_spec();
+    spec->kind = TypeSpec::Kind::pointer;
+    spec->element = type_spec();
   } else if (is_word("STRING") || is_word("WSTRING")) {
     spec->name = take().upper;
     spec->kind = TypeSpec::Kind::string;
@@ -310,7 +310,6 @@ void DeclarationParser::variable_blocks(PouDeclaration& pou) {
 
 void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view what) {
   PouDeclaration pou;
-  has_refused_pointer_ = false;
   pou.kind = kind;
   pou.is_class = is_word("CLASS");
   take();

@@ -96,9 +96,6 @@ class ExpressionParser : public TokenReader {
   /// Of the unit whose body is read: inputs with R_EDGE or F_EDGE, in capitals, and the blocks that detect
   /// the edges.
   std::map<std::string, std::string, std::less<>> edges_;
-  /// One error for each unit.
-  void refuse_pointer();
-  bool has_refused_pointer_ = false;
 
  private:
   ExpressionPtr unary();

@@ -22,14 +22,17 @@ constexpr const char* source =
     "FUNCTION f : INT VAR_INPUT v : INT; END_VAR VAR_IN_OUT q : INT; END_VAR q := q + v; f := q / 3; "
     "END_FUNCTION\n"
     "PROGRAM main VAR i, n : INT; a : ARRAY[0..9] OF P; t : TON; s : STRING := 'abc'; r : REAL; w : WORD; "
-    "u : WSTRING[5] := \"x$20AC\"; "
+    "u : WSTRING[5] := \"x$20AC\"; b : POINTER TO BYTE; d : POINTER TO DWORD; all : POINTER TO ARRAY[0..99] "
+    "OF P; "
     "END_VAR\n"
     "FOR i := 0 TO 9 DO a[i].x := i; n := n + f(i, a[i].x); END_FOR;\n"
     "s := CONCAT(LEFT(s, 2), INT_TO_STRING(n)); a[n MOD 10].s := s; t(IN := n > 3, PT := T#5ms);\n"
     "WHILE n > 10 DO n := n / 2; r := SQRT(r + n); w.%X3 := NOT w.%X3; END_WHILE; %Y3 := "
     "INT_TO_USINT(LEN(s));\n"
     "u := REPLACE(CONCAT(LEFT(u, n), STRING_TO_WSTRING(s)), u, 1, n); n := FIND(u, u) + LEN(u); "
-    "a[1] := a[2]; CASE n OF 1..3: n := 4; ELSE n := 5; END_CASE;\nEND_PROGRAM\n";
+    "a[1] := a[2]; CASE n OF 1..3: n := 4; ELSE n := 5; END_CASE;\n"
+    "b := ADR(s) + n; b^ := b^ XOR 1; d := ADR(r); d^ := d^ OR 1; all := ADR(a[1]); all^[n].x := all^[0].x; "
+    "IF b > ADR(s) THEN d := ADR(w); END_IF;\nEND_PROGRAM\n";
 
 const std::vector<std::uint8_t>& original() {
   static const auto bytes = [] {

@@ -83,13 +83,25 @@ TEST(Codesys, TakesVarInputConstantAsAnInput) {
   EXPECT_EQ(program.get("main.b"), "8");
 }
 
-TEST(Codesys, RefusesPointersWithOneLineOfEachUnit) {
-  const auto lines = lines_of("t.exp",
-                              "FUNCTION f : INT VAR_INPUT p : POINTER TO ARRAY[0..9] OF INT; END_VAR\n"
-                              "IF p^[1] > 0 THEN p^[1] := 0; END_IF; f := p^[2]; END_FUNCTION\n");
-  EXPECT_THAT(lines, testing::ElementsAre(
-                         "t.exp:1:32: error: there are no pointers; write REF_TO, pass the variable as "
-                         "VAR_IN_OUT, and take bytes of a string with MID"));
+// Of 10 bytes the first 8 are written as two DWORD. ADR(b) + 7 is 7 bytes behind ADR(b).
+TEST(CodesysExport, KeepsPointersInNumbers) {
+  Export program(
+      "b : ARRAY[0..9] OF BYTE; done : BOOL; s : STRING(10) := 'aBc'; u : STRING(10); p : POINTER TO BYTE; d "
+      ": "
+      "DWORD; r : REAL := 1.0;",
+      "done := fill(ADR(b), SIZEOF(b)); u := upper(s); p := ADR(b) + 7; d := p - ADR(b); p := ADR(r);",
+      "FUNCTION fill : BOOL VAR_INPUT first : POINTER TO BYTE; size : UINT; END_VAR VAR w : POINTER TO "
+      "DWORD; "
+      "last : DWORD; END_VAR last := first; last := last + UINT_TO_DWORD(size); w := first;\n"
+      "WHILE w + 3 < last DO w^ := 16#01020304; w := w + 4; END_WHILE first := w;\n"
+      "WHILE first < last DO first^ := 9; first := first + 1; END_WHILE fill := TRUE; END_FUNCTION\n"
+      "FUNCTION upper : STRING(10) VAR_INPUT s : STRING(10); END_VAR VAR p : POINTER TO BYTE; i : INT; "
+      "END_VAR\n"
+      "upper := s; p := ADR(upper); FOR i := 1 TO LEN(s) DO IF p^ > 96 THEN p^ := p^ - 32; END_IF p := p + "
+      "1; "
+      "END_FOR END_FUNCTION\n");
+  EXPECT_EQ(program.get("b"), "[4, 3, 2, 1, 4, 3, 2, 1, 9, 9]");
+  EXPECT_EQ(program.get("u") + " " + program.get("d"), "'ABC' 7");
 }
 
 // BYTE 200 + 100 is computed in 32 bits; of 300 a BYTE takes 300 - 256 = 44.

@@ -34,10 +34,11 @@ TEST(StatementCount, IsReachedByTheLongestWay) {
            Row{"b(x := 1);", "the call, its entry, two statements of the block", 1 + 1 + 2},
            Row{"n := f(2) + f(3);", "the assignment, twice the entry and one statement", 1 + 2 * 2},
            Row{"a := c;", "the assignment, 40 cells in 40 / 16 steps", 1 + 2},
+           Row{"p := ADR(n); p^ := 1;", "two, and one more for the writing through a pointer", 2 + 1},
        }) {
     Translated program(
         "VAR n : INT; i, j : INT; k : INT := 2; yes : BOOL := TRUE; b : Twice; a, c : ARRAY[1..40] OF INT; "
-        "END_VAR",
+        "p : POINTER TO INT; END_VAR",
         row.statements,
         "FUNCTION_BLOCK Twice\nVAR_INPUT x : INT; END_VAR\nVAR y : INT; END_VAR\ny := x; y := y + x;\n"
         "END_FUNCTION_BLOCK\nFUNCTION f : INT\nVAR_INPUT x : INT; END_VAR\nf := x;\nEND_FUNCTION\n");

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "plc/machine/arithmetic.hpp"
+#include "plc/machine/pointer.hpp"
 #include "plc/machine/strings.hpp"
 #include "plc/semantics/time_literal.hpp"
 #include "plc/semantics/unit.hpp"
@@ -93,6 +94,11 @@ std::string value_text(const Type& type, std::span<const std::uint64_t> cells) {
                                         : "an instance at cell " + std::to_string(cells[0] & 0xffffffffu);
     case Kind::reference:
       return cells[0] == null_reference ? "NULL" : "the variable at cell " + std::to_string(cells[0]);
+    case Kind::pointer:
+      return cells[0] == null_reference
+                 ? "NULL"
+                 : "byte " + std::to_string(pointer_offset(cells[0])) + " of the variable at cell " +
+                       std::to_string(pointer_address(cells[0]));
     case Kind::array: {
       std::string text = "[";
       for (std::uint32_t i = 0; i < type.cells; i += type.element->cells)

@@ -32,6 +32,7 @@ idl::plc::ValueKind kind_of(st::Kind kind) {
     case st::Kind::enumeration:
     case st::Kind::interface_:
     case st::Kind::reference:
+    case st::Kind::pointer:
       return ENUMERATED_VALUE;
     default:
       return st::is_signed(kind) ? SIGNED_VALUE : UNSIGNED_VALUE;
