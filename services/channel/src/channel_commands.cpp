@@ -38,7 +38,7 @@ Answer ChannelCore::operable() const {
   if (!guard_error_.empty()) return refuse(alarm::bodies_invalid, guard_error_);
   if (!recovered_) return refuse(alarm::not_ready, "The drive has not answered yet");
   if (link().drive_mode() == DriveMode::OFF) return refuse(alarm::not_ready, "The drives are off");
-  if (homing_ || link().drive_mode() == DriveMode::HOMING)
+  if (homing_.active() || link().drive_mode() == DriveMode::HOMING)
     return refuse(alarm::not_ready,
                   "An axis searches its reference: wait until it has found it, or end it with feed hold");
   return {};
@@ -49,7 +49,7 @@ Answer ChannelCore::startable() const {
   if (auto answer = operable(); !answer.accepted) return answer;
   std::string names;
   for (const auto& axis : machine::drive_axes(*parameters_))
-    if (unreferenced_.contains(axis.number)) names += (names.empty() ? "" : ", ") + axis.name;
+    if (!homing_.referenced(axis.number)) names += (names.empty() ? "" : ", ") + axis.name;
   if (names.empty()) return {};
   return refuse(alarm::not_homed,
                 "Axes without a reference: " + names + ". Mode REF, then reference return of each");
@@ -243,12 +243,20 @@ Answer ChannelCore::reference(std::uint8_t index) {
   auto move = manual_.reference(index);
   if (auto* refusal = std::get_if<Refusal>(&move)) return refuse(std::move(*refusal));
   const auto number = machine_.channel_axes().number[index];
-  if (needs_homing(number)) return begin_homing(number);
+  if (homing_.needed(number, parameters_.get())) return begin_homing(number);
   if (!states_.busy() && startable().accepted) {
     adopt_position();
     if (auto refusal = guard_reference(std::get<AxisMove>(move))) return refuse(std::move(*refusal));
   }
   return start_move(std::get<AxisMove>(move));
+}
+
+Answer ChannelCore::begin_homing(std::uint16_t axis) {
+  if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
+  if (auto answer = operable(); !answer.accepted) return answer;
+  homing_.begin(axis);
+  advance_homing();
+  return {};
 }
 
 Answer ChannelCore::jog(const ChannelRequest& request) {

@@ -42,7 +42,7 @@ void ChannelCore::set_parameters(std::shared_ptr<const machine::Parameters> para
 
 // A revision is used from the next start on: setpoints of one motion are all made with one revision.
 void ChannelCore::apply_parameters() {
-  if (!next_parameters_ || !states_.in<Idle>() || !stream_.idle() || homing_) return;
+  if (!next_parameters_ || !states_.in<Idle>() || !stream_.idle() || homing_.active()) return;
   const bool first = !machine_.configured();
   try {
     machine_.configure(*next_parameters_);

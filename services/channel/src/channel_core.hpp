@@ -4,10 +4,9 @@
 // StreamWriter.
 #pragma once
 
-#include <set>
-
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +24,7 @@
 #include "cycle_call.hpp"
 #include "exact_stop_check.hpp"
 #include "hand_over.hpp"
+#include "homing.hpp"
 #include "machine/alarm_definition.hpp"
 #include "manual_motion.hpp"
 #include "program_cache.hpp"
@@ -112,7 +112,7 @@ class ChannelCore {
   void set_control(const idl::plc::ChannelControl& control);
   const idl::plc::ChannelControl& control() const { return control_; }
   /// Logical numbers of the axes whose position is not known: a reference return gives them their reference.
-  void set_unreferenced(std::set<std::uint16_t> axes) { unreferenced_ = std::move(axes); }
+  void set_unreferenced(std::set<std::uint16_t> axes) { homing_.set_unreferenced(std::move(axes)); }
   void set_ready(bool ready) { ready_ = ready; }
   /// As StreamWriter::set_replicas().
   void set_replicas(bool may_start, std::uint64_t floor) { stream_.set_replicas(may_start, floor); }
@@ -167,12 +167,6 @@ class ChannelCore {
     double position = 0, direction = 1;
     std::string text;
   };
-  /// An axis that the drive homes for this channel.
-  struct Homing {
-    std::uint16_t axis = 0;  ///< logical number
-    bool searches = false;   ///< demanded of the drive; false: it waits for the feed override, or brakes
-    bool ended = false;      ///< it is over when the drive has braked
-  };
   /// MDI, from line to line.
   struct Mdi {
     std::string line, who;
@@ -197,18 +191,14 @@ class ChannelCore {
   void put_into_spindle(std::uint32_t tool);
   Answer continue_after_interruption();
   Answer reference(std::uint8_t index);
+  Answer begin_homing(std::uint16_t axis);
+  void advance_homing() { homing_.advance(stream_.link(), switches_.feed_override > 0); }
+  void end_homing() { homing_.end(stream_.link(), switches_.feed_override > 0); }
   Answer jog(const idl::channel::ChannelRequest& request);
   Answer renew_jog(std::uint32_t press);
   void stop_jog_without_renewal();
   void stop_jog();
   void reset();
-
-  // channel_homing.cpp: axes that search their reference in the drive.
-  bool needs_homing(std::uint16_t axis) const;
-  Answer begin_homing(std::uint16_t axis);
-  void advance_homing();
-  void end_homing();
-  std::string homing_detail() const;
 
   // channel_switches.cpp: dry run, locks, block skip, handwheel, retrace.
   Answer set_switch(const idl::channel::ChannelRequest& request);
@@ -331,7 +321,7 @@ class ChannelCore {
   CycleCall cycle_call_;
   bool cycle_service_ = false;
   ManualMotion manual_;
-  std::optional<Homing> homing_;
+  Homing homing_;
   // The program's motion stays planned while the axes are moved by MDI, by hand or to the program's start.
   ChannelPath program_path_, manual_path_;
   ProgramFlow program_flow_, mdi_flow_;
@@ -350,7 +340,6 @@ class ChannelCore {
   bool ready_ = false, recovered_ = false;
   std::string external_hold_, drive_stopped_;
   idl::plc::ChannelControl control_;
-  std::set<std::uint16_t> unreferenced_;
   std::uint32_t reset_count_ = 0;
 
   idl::program::ProgramEntry selected_;

@@ -13,11 +13,11 @@ constexpr const char* this_boot = "snapshot";  // common variables are kept, too
 struct ChannelFields {
   // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_,
   // mdi_. No fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
-  // parameters_, next_parameters_, programs_, tool_table_, cycle_service_. No field, the state of the service
-  // has it: unreferenced_. No fields, nothing is under way: states_, homing_, mdi_flow_, jog_obstacle_,
-  // skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they are made
-  // again: program_path_, manual_path_, program_cache_, mdi_cache_, program_guard_, manual_guard_,
-  // guard_error_, unusable_, state_.
+  // parameters_, next_parameters_, programs_, tool_table_, cycle_service_. No field, nothing is under way and
+  // the state of the service has the axes: homing_. No fields, nothing is under way: states_, mdi_flow_,
+  // jog_obstacle_, skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields,
+  // they are made again: program_path_, manual_path_, program_cache_, mdi_cache_, program_guard_,
+  // manual_guard_, guard_error_, unusable_, state_.
   template <class Core>
   struct Of {
     Core& core;
@@ -46,7 +46,7 @@ bus::Json ChannelCore::explicit_state(std::string& why_not) const {
     why_not = "the channel waits for the drive";
   else if (!states_.in<Idle>())
     why_not = "the channel is " + states_.name();
-  else if (homing_)
+  else if (homing_.active())
     why_not = "the channel homes an axis";
   else if (!link().at_rest() || !handshake_.at_rest() || !cycle_call_.at_rest() ||
            !manual_.offset_at_rest() || next_parameters_)

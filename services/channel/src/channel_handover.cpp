@@ -5,7 +5,7 @@
 namespace trunnion::channel {
 
 std::optional<HandOver> ChannelCore::hand_over() const {
-  if (homing_) return std::nullopt;
+  if (homing_.active()) return std::nullopt;
   if (states_.busy() && !states_.in<Held>() && !states_.in<Interrupted>()) return std::nullopt;
   HandOver state;
   state.mode = mode_;

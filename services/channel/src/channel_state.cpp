@@ -17,7 +17,7 @@ std::string in_words(std::uint64_t lines) {
 }  // namespace
 
 std::string ChannelCore::detail() const {
-  if (homing_) return homing_detail();
+  if (homing_.active()) return homing_.detail(machine_.channel_axes(), switches_.feed_override > 0);
   const bool running = states_.advances(), held = states_.in<Held>();
   const auto* preparing = states_.preparing();
   const auto& executed = progress_.executed;
@@ -100,6 +100,11 @@ void ChannelCore::show_positions() {
   }
 }
 
+RunState ChannelCore::run_state() const {
+  if (!homing_.active()) return states_.published();
+  return homing_.ended() ? RunState::HOLDING : RunState::RUNNING;
+}
+
 const idl::channel::ChannelState& ChannelCore::state() {
   auto& s = state_;
   s.channel = number_;
@@ -141,8 +146,8 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.revision = machine_.revision();
   s.frames_ahead =
       static_cast<std::uint32_t>(link().next() > link().executed() ? link().next() - link().executed() : 0);
-  s.homed = std::none_of(s.axes.begin(), s.axes.end(),
-                         [&](std::uint16_t axis) { return unreferenced_.contains(axis); });
+  s.homed =
+      std::all_of(s.axes.begin(), s.axes.end(), [&](std::uint16_t axis) { return homing_.referenced(axis); });
   s.dry_run = switches_.dry_run;
   s.auxiliary_lock = switches_.auxiliary_lock;
   s.block_skip = switches_.block_skip;

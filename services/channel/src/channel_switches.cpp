@@ -11,7 +11,7 @@ using idl::channel::CommandKind;
 // They change what a program does from its first block on, so they are chosen before it: the blocks that are
 // planned already would not follow.
 Answer ChannelCore::set_switch(const ChannelRequest& request) {
-  if (!states_.in<Idle>() || homing_)
+  if (!states_.in<Idle>() || homing_.active())
     return refuse(alarm::request_invalid,
                   "Stop or reset the program first: this holds from its first block on");
   switch (request.command) {
