@@ -35,7 +35,7 @@ Answer ChannelCore::operable() const {
   if (!ready_) return refuse(alarm::not_ready, "The cluster is not ready: see the services");
   if (!external_hold_.empty()) return refuse(alarm::not_ready, external_hold_);
   if (!drive_stopped_.empty() && !states_.in<Interrupted>()) return refuse(alarm::not_ready, drive_stopped_);
-  if (!guard_error_.empty()) return refuse(alarm::bodies_invalid, guard_error_);
+  if (!bodies_.error().empty()) return refuse(alarm::bodies_invalid, bodies_.error());
   if (!recovered_) return refuse(alarm::not_ready, "The drive has not answered yet");
   if (link().drive_mode() == DriveMode::OFF) return refuse(alarm::not_ready, "The drives are off");
   if (homing_.active() || link().drive_mode() == DriveMode::HOMING)

@@ -22,7 +22,8 @@ ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
       program_path_(machine_),
       manual_path_(machine_),
       program_flow_(machine_),
-      mdi_flow_(machine_) {
+      mdi_flow_(machine_),
+      bodies_(machine_) {
   machine_.resolve = [this](std::string_view name) {
     return (states_.is(Activity::mdi) ? mdi_cache_ : program_cache_).call(programs_, name);
   };
@@ -75,8 +76,7 @@ void ChannelCore::build_paths() {
 void ChannelCore::set_tools(const idl::parameters::ToolTable& tools) {
   tool_table_ = tools;
   machine_.set_tools(tools);
-  for (auto* guard : {program_guard_.get(), manual_guard_.get()})
-    if (guard != nullptr) guard->tools_changed();
+  bodies_.tools_changed();
 }
 void ChannelCore::set_offsets(const idl::parameters::WorkOffsets& offsets) { machine_.set_offsets(offsets); }
 
@@ -146,7 +146,7 @@ void ChannelCore::stop_activity() {
   end_cycle();
   leave_temporary_program();
   restart_.reset();
-  jog_obstacle_.reset();
+  bodies_.forget_jog();
   manual_.end_wheel();
   handshake_.cancel();
   apply_parameters();
@@ -158,7 +158,7 @@ void ChannelCore::finish(bool program_end) {
   finish_tapping();
   machine_start_ = machine_position();
   manual_.end_wheel();
-  jog_obstacle_.reset();
+  bodies_.forget_jog();
   if (states_.is(Activity::mdi) && !reset) {  // a reset has its own modal state
     mdi_.modal = mdi_flow_.modal();
     mdi_.frames_kept = true;

@@ -15,11 +15,11 @@
 #include "auxiliary_handshake.hpp"
 #include "axis_lock.hpp"
 #include "bus/json_type.hpp"
+#include "channel_bodies.hpp"
 #include "channel_path.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "channel_snapshot.hpp"
 #include "channel_states.hpp"
-#include "collision_guard/collision_guard.hpp"
 #include "contracts/types.hpp"
 #include "cycle_call.hpp"
 #include "exact_stop_check.hpp"
@@ -161,12 +161,6 @@ class ChannelCore {
 
  private:
   friend struct ChannelFields;  // channel_explicit_state.cpp
-  /// Where a jog reaches the clearance of two bodies.
-  struct JogObstacle {
-    std::uint8_t axis = 0;
-    double position = 0, direction = 1;
-    std::string text;
-  };
   /// MDI, from line to line.
   struct Mdi {
     std::string line, who;
@@ -242,16 +236,14 @@ class ChannelCore {
 
   // channel_guard.cpp: bodies of the machine.
   void configure_guards();
-  void hold_guarded_axes();
+  void hold_guarded_axes() { bodies_.hold_axes(lock_.mask(), lock_.hold({})); }
   void report_guard();
   void report_jog_obstacle();
   std::string approach_obstacle(const std::vector<language::Command>& moves);
   std::optional<Refusal> guard_jog(AxisMove& move);
   std::optional<Refusal> guard_reference(const AxisMove& move);
   double guard_handwheel(std::uint8_t axis, double distance);
-  bool guards_stop() const {
-    return manual_guard_ != nullptr && manual_guard_->mode() == machine::CollisionMode::stop;
-  }
+  language::ModalState by_hand_modal() const;
 
   // channel_requests.cpp: what a program asks of the rest of the control.
   void run_pending(FlowState state);
@@ -326,10 +318,7 @@ class ChannelCore {
   ChannelPath program_path_, manual_path_;
   ProgramFlow program_flow_, mdi_flow_;
   ProgramCache program_cache_, mdi_cache_;
-  // Of the program and of everything else, as the paths; null unless machine.yaml demands the check.
-  std::unique_ptr<collision_guard::CollisionGuard> program_guard_, manual_guard_;
-  std::string guard_error_;
-  std::optional<JogObstacle> jog_obstacle_;
+  ChannelBodies bodies_;
   SkipMove skip_;
   ExactStopCheck exact_stop_;
   Tapping tapping_;

@@ -15,9 +15,9 @@ struct ChannelFields {
   // mdi_. No fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
   // parameters_, next_parameters_, programs_, tool_table_, cycle_service_. No field, nothing is under way and
   // the state of the service has the axes: homing_. No fields, nothing is under way: states_, mdi_flow_,
-  // jog_obstacle_, skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields,
-  // they are made again: program_path_, manual_path_, program_cache_, mdi_cache_, program_guard_,
-  // manual_guard_, guard_error_, unusable_, state_.
+  // skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields,
+  // they are made again: program_path_, manual_path_, program_cache_, mdi_cache_, bodies_, unusable_,
+  // state_.
   template <class Core>
   struct Of {
     Core& core;

@@ -60,7 +60,7 @@ Answer ChannelCore::set_block_skip(std::uint16_t mask) {
 Answer ChannelCore::set_handwheel_offset(bool on) {
   if (!configured() || !stream_.idle()) return refuse(alarm::request_invalid, "The channel is busy");
   if (on && lock_.any()) return refuse(alarm::request_invalid, "Unlock the axes before a handwheel offset");
-  if (on && manual_guard_ != nullptr)
+  if (on && bodies_.demanded())
     return refuse(alarm::request_invalid,
                   "The check for collisions does not know a handwheel offset: set 'collision: off' in "
                   "machine.yaml to use it");
@@ -116,9 +116,9 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
   if (distance != 0 && added == 0)
     return refuse(alarm::travel_limit,
                   "Axis " + std::string(1, language::axis_letters[axis]) +
-                      (guards_stop() ? " has no travel left for the handwheel, or a body "
-                                       "of the machine is in its way"
-                                     : " has no travel left for the handwheel"));
+                      (bodies_.stop() ? " has no travel left for the handwheel, or a body "
+                                        "of the machine is in its way"
+                                      : " has no travel left for the handwheel"));
   if (!turning && !in_motion) begin_manual(Activity::handwheel);
   return {};
 }
