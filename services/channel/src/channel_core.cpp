@@ -17,6 +17,7 @@ ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
       machine_(channel),
       stream_(channel),
       handshake_(channel),
+      table_change_(channel),
       cycle_call_(channel),
       manual_(machine_),
       program_path_(machine_),
@@ -74,7 +75,7 @@ void ChannelCore::build_paths() {
 }
 
 void ChannelCore::set_tools(const idl::parameters::ToolTable& tools) {
-  tool_table_ = tools;
+  table_change_.set_tools(tools);
   machine_.set_tools(tools);
   bodies_.tools_changed();
 }
@@ -149,6 +150,7 @@ void ChannelCore::stop_activity() {
   bodies_.forget_jog();
   manual_.end_wheel();
   handshake_.cancel();
+  table_change_.cancel();
   apply_parameters();
 }
 

@@ -34,6 +34,7 @@
 #include "skip_move.hpp"
 #include "stream_writer.hpp"
 #include "switches.hpp"
+#include "table_change.hpp"
 
 namespace trunnion::channel {
 
@@ -133,7 +134,7 @@ class ChannelCore {
   std::optional<idl::stream::StreamRequest> take_stream_request() { return stream_.link().take_request(); }
   std::optional<idl::channel::AuxiliaryRequest> take_auxiliary() { return handshake_.take_request(); }
   std::optional<idl::parameters::ParameterRequest> take_table_request() {
-    return handshake_.take_table_request();
+    return table_change_.take_request();
   }
   std::optional<CycleRequest> take_cycle_request() { return cycle_call_.take_request(); }
   /// The variables, when a program or an MDI line has ended since the last time.
@@ -305,11 +306,11 @@ class ChannelCore {
   channel_setup::ChannelSetup machine_;
   std::shared_ptr<const machine::Parameters> parameters_, next_parameters_;
   idl::program::ProgramList programs_;
-  idl::parameters::ToolTable tool_table_;
 
   ChannelStates states_;
   StreamWriter stream_;
   AuxiliaryHandshake handshake_;
+  TableChange table_change_;
   CycleCall cycle_call_;
   bool cycle_service_ = false;
   ManualMotion manual_;

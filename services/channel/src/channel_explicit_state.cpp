@@ -13,11 +13,10 @@ constexpr const char* this_boot = "snapshot";  // common variables are kept, too
 struct ChannelFields {
   // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_,
   // mdi_. No fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
-  // parameters_, next_parameters_, programs_, tool_table_, cycle_service_. No field, nothing is under way and
-  // the state of the service has the axes: homing_. No fields, nothing is under way: states_, mdi_flow_,
-  // skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields,
-  // they are made again: program_path_, manual_path_, program_cache_, mdi_cache_, bodies_, unusable_,
-  // state_.
+  // parameters_, next_parameters_, programs_, cycle_service_. No field, nothing is under way and
+  // the state of the service has the axes: homing_. No fields, nothing is under way: states_, table_change_,
+  // mdi_flow_, skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they
+  // are made again: program_path_, manual_path_, program_cache_, mdi_cache_, bodies_, unusable_, state_.
   template <class Core>
   struct Of {
     Core& core;
@@ -48,7 +47,7 @@ bus::Json ChannelCore::explicit_state(std::string& why_not) const {
     why_not = "the channel is " + states_.name();
   else if (homing_.active())
     why_not = "the channel homes an axis";
-  else if (!link().at_rest() || !handshake_.at_rest() || !cycle_call_.at_rest() ||
+  else if (!link().at_rest() || !handshake_.at_rest() || !table_change_.at_rest() || !cycle_call_.at_rest() ||
            !manual_.offset_at_rest() || next_parameters_)
     why_not = "the channel comes to rest";
   else if (mdi_.frames_kept)

@@ -7,7 +7,6 @@
 #include "language/codes.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/roles.hpp"
-#include "table_request.hpp"
 
 namespace trunnion::channel {
 
@@ -78,14 +77,11 @@ std::uint8_t ChannelCore::role() const {
 }
 
 void ChannelCore::change_table(const language::Command& command) {
-  auto request = table_request(command, number_, tool_table_);
-  request.role = role();
-  const bool mdi = states_.is(Activity::mdi);
-  request.who = mdi ? "MDI of channel " + std::to_string(number_) + " by " + mdi_.who
-                    : program_name() + " line " + std::to_string(flow().main_line()) + " of channel " +
-                          std::to_string(number_);
-  request.who.resize(std::min<std::size_t>(request.who.size(), 64));
-  handshake_.begin_table(std::move(request));
+  const auto channel = "channel " + std::to_string(number_);
+  table_change_.begin(command, role(),
+                      states_.is(Activity::mdi) ? "MDI of " + channel + " by " + mdi_.who
+                                                : program_name() + " line " +
+                                                      std::to_string(flow().main_line()) + " of " + channel);
 }
 
 void ChannelCore::execute(const language::Command& command) {
@@ -179,7 +175,7 @@ void ChannelCore::count_part() {
 }
 
 void ChannelCore::on_table_changed(const std::string& reason) {
-  if (!handshake_.finish_table()) return;
+  if (!table_change_.finish()) return;
   if (!reason.empty()) {
     event(alarm::table_refused, program_name() + ":" + std::to_string(flow().pending().line) + ": " + reason);
     stop_activity();
