@@ -32,9 +32,7 @@ Answer ChannelCore::refuse(const machine::AlarmDefinition& alarm, std::string re
 
 Answer ChannelCore::operable() const {
   if (!configured()) return refuse(alarm::not_ready, "The channel has no parameters yet");
-  if (!ready_) return refuse(alarm::not_ready, "The cluster is not ready: see the services");
-  if (!external_hold_.empty()) return refuse(alarm::not_ready, external_hold_);
-  if (!drive_stopped_.empty() && !states_.in<Interrupted>()) return refuse(alarm::not_ready, drive_stopped_);
+  if (auto refusal = interlock_.motion(states_.in<Interrupted>())) return refuse(std::move(*refusal));
   if (!bodies_.error().empty()) return refuse(alarm::bodies_invalid, bodies_.error());
   if (!recovered_) return refuse(alarm::not_ready, "The drive has not answered yet");
   if (link().drive_mode() == DriveMode::OFF) return refuse(alarm::not_ready, "The drives are off");
@@ -55,37 +53,21 @@ Answer ChannelCore::startable() const {
                 "Axes without a reference: " + names + ". Mode REF, then reference return of each");
 }
 
-Answer ChannelCore::may_start() const {
-  if (!control_.start_inhibit) return {};
-  return refuse(
-      alarm::not_ready,
-      "No cycle start: " + (control_.reason.empty() ? "the machine's PLC inhibits it" : control_.reason));
-}
-
-Answer ChannelCore::may_move_by_hand() const {
-  if (!control_.manual_inhibit) return {};
-  return refuse(
-      alarm::not_ready,
-      "No manual motion: " + (control_.reason.empty() ? "the machine's PLC inhibits it" : control_.reason));
-}
-
 // A jog and the search for a reference stop at once.
 void ChannelCore::set_control(const idl::plc::ChannelControl& control) {
-  const bool inhibited = control.manual_inhibit && !control_.manual_inhibit;
-  control_ = control;
-  if (inhibited) {
+  if (interlock_.set_control(control)) {
     manual_.stop();
     stop_jog();
     end_homing();
   }
-  if (!control_.sets_overrides) return;
-  switches_.feed_override = commands::feed_override.clamp(control_.feed_override);
-  switches_.rapid_override = commands::rapid_override.clamp(control_.rapid_override);
-  switches_.spindle_override = commands::spindle_override.clamp(control_.spindle_override);
+  if (!control.sets_overrides) return;
+  switches_.feed_override = commands::feed_override.clamp(control.feed_override);
+  switches_.rapid_override = commands::rapid_override.clamp(control.rapid_override);
+  switches_.spindle_override = commands::spindle_override.clamp(control.spindle_override);
 }
 
 Answer ChannelCore::set_override(double& override_, double fraction) {
-  if (control_.sets_overrides)
+  if (control().sets_overrides)
     return refuse(alarm::request_invalid,
                   "The override switches of the machine's panel are in force: turn them");
   override_ = fraction;
@@ -190,7 +172,7 @@ Answer ChannelCore::select(const std::string& name) {
 }
 
 Answer ChannelCore::cycle_start() {
-  if (auto answer = may_start(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.start()) return refuse(std::move(*refusal));
   if (auto answer = startable(); !answer.accepted) return answer;
   if (states_.in<Idle>()) {
     if (mode_ != Mode::AUTO)
@@ -239,7 +221,7 @@ Answer ChannelCore::continue_after_interruption() {
 
 Answer ChannelCore::reference(std::uint8_t index) {
   if (mode_ != Mode::REF) return refuse(alarm::request_invalid, "Reference return needs mode REF");
-  if (auto answer = may_move_by_hand(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.manual_motion()) return refuse(std::move(*refusal));
   auto move = manual_.reference(index);
   if (auto* refusal = std::get_if<Refusal>(&move)) return refuse(std::move(*refusal));
   const auto number = machine_.channel_axes().number[index];
@@ -262,7 +244,7 @@ Answer ChannelCore::begin_homing(std::uint16_t axis) {
 Answer ChannelCore::jog(const ChannelRequest& request) {
   if (mode_ != Mode::JOG) return refuse(alarm::request_invalid, "Jog needs mode JOG");
   if (auto error = manual_.jog_error(request.axis, request.speed)) return refuse(std::move(*error));
-  if (auto answer = may_move_by_hand(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.manual_motion()) return refuse(std::move(*refusal));
   if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
   adopt_position();
   auto move = manual_.jog(request.axis, request.speed, request.increment, machine_start_);

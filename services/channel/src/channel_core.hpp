@@ -25,6 +25,7 @@
 #include "exact_stop_check.hpp"
 #include "hand_over.hpp"
 #include "homing.hpp"
+#include "interlock.hpp"
 #include "machine/alarm_definition.hpp"
 #include "manual_motion.hpp"
 #include "program_cache.hpp"
@@ -111,10 +112,10 @@ class ChannelCore {
   void set_drive_stopped(const std::string& why);
   /// What the PLC decides of this channel; its overrides stay when it sets them no longer.
   void set_control(const idl::plc::ChannelControl& control);
-  const idl::plc::ChannelControl& control() const { return control_; }
+  const idl::plc::ChannelControl& control() const { return interlock_.control(); }
   /// Logical numbers of the axes whose position is not known: a reference return gives them their reference.
   void set_unreferenced(std::set<std::uint16_t> axes) { homing_.set_unreferenced(std::move(axes)); }
-  void set_ready(bool ready) { ready_ = ready; }
+  void set_ready(bool ready) { interlock_.set_ready(ready); }
   /// As StreamWriter::set_replicas().
   void set_replicas(bool may_start, std::uint64_t floor) { stream_.set_replicas(may_start, floor); }
   /// As StreamWriter::set_limit().
@@ -176,8 +177,6 @@ class ChannelCore {
   Answer refuse(Refusal refusal) const { return refuse(*refusal.alarm, std::move(refusal.reason)); }
   Answer operable() const;
   Answer startable() const;
-  Answer may_start() const;
-  Answer may_move_by_hand() const;
   Answer set_override(double& override_, double fraction);
   Answer set_mode(Mode mode);
   Answer select(const std::string& name);
@@ -327,9 +326,8 @@ class ChannelCore {
 
   Mode mode_ = Mode::JOG;
   Switches switches_;
-  bool ready_ = false, recovered_ = false;
-  std::string external_hold_, drive_stopped_;
-  idl::plc::ChannelControl control_;
+  Interlock interlock_;
+  bool recovered_ = false;
   std::uint32_t reset_count_ = 0;
 
   idl::program::ProgramEntry selected_;

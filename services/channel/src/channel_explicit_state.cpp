@@ -25,9 +25,9 @@ struct ChannelFields {
       auto& c = self.core;
       visit("link", c.stream_.link()), visit("handshake", c.handshake_), visit("cycle_call", c.cycle_call_),
           visit("lock", c.lock_);
-      visit("mode", c.mode_), visit("switches", c.switches_), visit("ready", c.ready_);
-      visit("hold", c.external_hold_), visit("drive_stopped", c.drive_stopped_), visit("control", c.control_),
-          visit("reset_count", c.reset_count_), visit("selected", c.selected_);
+      visit("mode", c.mode_), visit("switches", c.switches_);
+      Interlock::fields(c.interlock_, visit);
+      visit("reset_count", c.reset_count_), visit("selected", c.selected_);
       visit("program_start", c.program_start_), visit("interrupted", c.interrupted_);
       visit("modal", c.mdi_.modal), visit("position", c.machine_start_), visit("progress", c.progress_);
       visit("tool", c.tool_), visit("spindle_programmed", c.spindle_programmed_);

@@ -88,7 +88,7 @@ void ChannelCore::prepare_entry() {
 // One step of the preparation: a function, the approach, or the end of it, after which the program moves.
 // False when something has to happen before the next step.
 bool ChannelCore::run_preparation() {
-  if (!external_hold_.empty()) {
+  if (interlock_.holds()) {
     states_.pause();
     return false;
   }

@@ -148,7 +148,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
     return;
   }
   if (states_.preparing() != nullptr) {
-    states_.end_wait(!external_hold_.empty());
+    states_.end_wait(interlock_.holds());
     return;
   }
   const auto command = flow().pending();
@@ -165,7 +165,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
     return;
   }
   const bool stop = auxiliary && (command.number == program_stop || command.number == optional_stop);
-  states_.end_wait(stop || !external_hold_.empty());
+  states_.end_wait(stop || interlock_.holds());
 }
 
 // What was only tested, and a program of a command, is no part.
@@ -182,7 +182,7 @@ void ChannelCore::on_table_changed(const std::string& reason) {
     return;
   }
   flow().finish_pending();
-  states_.end_wait(!external_hold_.empty());
+  states_.end_wait(interlock_.holds());
 }
 
 // The axes are at rest, and nothing is read ahead before the answer.
@@ -231,7 +231,7 @@ void ChannelCore::settle_cycle() {
     return;
   cycle_call_.close();
   flow().cycle_answered(call ? 1 : 0);
-  states_.end_wait(!external_hold_.empty());
+  states_.end_wait(interlock_.holds());
 }
 
 }  // namespace trunnion::channel

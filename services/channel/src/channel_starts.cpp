@@ -69,7 +69,7 @@ void ChannelCore::begin_manual(Activity activity) {
 Answer ChannelCore::start_mdi(const idl::channel::ChannelRequest& request) {
   if (mode_ != Mode::MDI) return refuse(alarm::request_invalid, "An MDI line needs mode MDI");
   if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
-  if (auto answer = may_start(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.start()) return refuse(std::move(*refusal));
   if (auto answer = startable(); !answer.accepted) return answer;
   apply_parameters();
   adopt_position();

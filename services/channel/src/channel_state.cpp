@@ -38,10 +38,10 @@ std::string ChannelCore::detail() const {
   if (held && states_.retracing()) return "gone back as far as the path is kept; cycle start: forwards";
   if (const auto* suspended = states_.suspended())
     return "the program is held in line " + std::to_string(suspended->progress.executed.line);
-  if (states_.in<Interrupted>() && !drive_stopped_.empty() && external_hold_.empty() &&
+  if (states_.in<Interrupted>() && interlock_.drive_stopped() && !interlock_.holds() &&
       !states_.needs_reset())
     return "the drive has stopped on the path: cycle start continues there";
-  return states_.published() == RunState::HELD ? external_hold_ : "";
+  return states_.published() == RunState::HELD ? interlock_.hold() : "";
 }
 
 // Of the block that is executed, not of those read ahead.

@@ -96,7 +96,7 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
                   "The channel is busy: the handwheel waits for its motion to end or continue");
   if (!by_hand && states_.suspended() != nullptr && !turning)
     return refuse(alarm::request_invalid, "A program is held: the handwheel moves axes in mode JOG");
-  if (auto answer = may_move_by_hand(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.manual_motion()) return refuse(std::move(*refusal));
   if (auto answer = startable(); !answer.accepted) return answer;
   if (!turning && !in_motion) {
     apply_parameters();
@@ -135,7 +135,7 @@ Answer ChannelCore::retrace(bool on) {
                        !program_flow_.searching() && !tapping_.active() && !skip_.active();
   if (!program || (!states_.in<Running>() && !states_.in<Held>()))
     return refuse(alarm::request_invalid, "Only a program that runs or is held can be retraced");
-  if (auto answer = may_start(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.start()) return refuse(std::move(*refusal));
   if (auto answer = startable(); !answer.accepted) return answer;
   auto& trajectory = path().trajectory();
   trajectory.retrace(true);
