@@ -160,15 +160,11 @@ Answer ChannelCore::set_mode(Mode mode) {
 Answer ChannelCore::select(const std::string& name) {
   if (!states_.in<Idle>())
     return refuse(alarm::request_invalid, "A program cannot be selected while the channel is busy");
-  for (const auto& entry : programs_.programs)
-    if (entry.name == name) {
-      interrupted_ = {};
-      if (is_temporary(name) && !is_temporary(selected_.name)) before_temporary_ = selected_.name;
-      selected_ = entry;
-      progress_.executed = {};
-      return {};
-    }
-  return refuse(alarm::program_missing, "Program '" + name + "' is not in the store");
+  if (!selection_.select(name))
+    return refuse(alarm::program_missing, "Program '" + name + "' is not in the store");
+  interrupted_ = {};
+  progress_.executed = {};
+  return {};
 }
 
 Answer ChannelCore::cycle_start() {
@@ -177,11 +173,11 @@ Answer ChannelCore::cycle_start() {
   if (states_.in<Idle>()) {
     if (mode_ != Mode::AUTO)
       return refuse(alarm::request_invalid, "Cycle start needs mode AUTO (or an MDI line)");
-    if (selected_.name.empty()) return refuse(alarm::program_missing, "No program is selected");
-    if (interrupted_.line != 0 && interrupted_.name == selected_.name)
+    if (selected().name.empty()) return refuse(alarm::program_missing, "No program is selected");
+    if (interrupted_.line != 0 && interrupted_.name == selected().name)
       return refuse(
           alarm::request_invalid,
-          selected_.name + " was left in line " + std::to_string(interrupted_.line) +
+          selected().name + " was left in line " + std::to_string(interrupted_.line) +
               ": start from that line, or reset the channel to start the program from its beginning");
     return start_program({});
   }

@@ -4,13 +4,6 @@
 #include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
-namespace {
-// Of the programs that a command of `trunnion` writes for itself.
-constexpr std::string_view temporary_suffix = ".tmp.nc";
-}  // namespace
-
-bool is_temporary(const std::string& program) { return program.ends_with(temporary_suffix); }
-
 ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
     : number_(channel),
       virtual_time_(virtual_time),
@@ -26,7 +19,7 @@ ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
       mdi_flow_(machine_),
       bodies_(machine_) {
   machine_.resolve = [this](std::string_view name) {
-    return (states_.is(Activity::mdi) ? mdi_cache_ : program_cache_).call(programs_, name);
+    return (states_.is(Activity::mdi) ? mdi_cache_ : program_cache_).call(selection_.programs(), name);
   };
   mdi_.modal = power_on_modal();
 }
@@ -82,17 +75,16 @@ void ChannelCore::set_tools(const idl::parameters::ToolTable& tools) {
 void ChannelCore::set_offsets(const idl::parameters::WorkOffsets& offsets) { machine_.set_offsets(offsets); }
 
 void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
-  programs_ = programs;
+  selection_.set_programs(programs);
   settle_cycle();
-  if (!states_.in<Idle>()) return;
-  for (const auto& entry : programs_.programs)
-    if (entry.name == selected_.name) selected_ = entry;
+  if (states_.in<Idle>()) selection_.renew();
 }
 
 RunningProgram ChannelCore::running_program() const {
   auto left = interrupted_;
   if (program_under_way())
-    left = {selected_.name, selected_.revision, selected_.crc32, std::max<std::uint32_t>(program_line(), 1)};
+    left = {selected().name, selected().revision, selected().crc32,
+            std::max<std::uint32_t>(program_line(), 1)};
   return {left, ended_, parts_, tool_, tool_since_};
 }
 
@@ -180,14 +172,8 @@ void ChannelCore::finish(bool program_end) {
   apply_parameters();
 }
 
-// A command that was killed cannot put back the operator's program: it is selected again when a temporary one
-// has ended. The command selects its own before each run.
 void ChannelCore::leave_temporary_program() {
-  if (!states_.in<Idle>() || !is_temporary(selected_.name)) return;
-  const auto name = std::exchange(before_temporary_, "");
-  selected_ = {};
-  for (const auto& entry : programs_.programs)
-    if (entry.name == name) selected_ = entry;
+  if (states_.in<Idle>()) selection_.leave_temporary();
 }
 
 // A program that is suspended for MDI has not ended.

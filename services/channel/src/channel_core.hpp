@@ -32,6 +32,7 @@
 #include "program_execution/program_flow.hpp"
 #include "program_execution/tapping.hpp"
 #include "program_record.hpp"
+#include "program_selection.hpp"
 #include "skip_move.hpp"
 #include "stream_writer.hpp"
 #include "switches.hpp"
@@ -51,9 +52,6 @@ struct ChannelEvent {
   const machine::AlarmDefinition* alarm;
   std::string text;
 };
-
-/// A command of `trunnion` has stored the program for itself: its name ends with .tmp.nc.
-bool is_temporary(const std::string& program);
 
 class ChannelCore {
  public:
@@ -295,7 +293,8 @@ class ChannelCore {
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;
   AxisValues drive_position() const;
-  std::string program_name() const { return states_.is(Activity::program) ? selected_.name : "MDI"; }
+  std::string program_name() const { return states_.is(Activity::program) ? selected().name : "MDI"; }
+  const idl::program::ProgramEntry& selected() const { return selection_.selected(); }
   void event(const machine::AlarmDefinition& alarm, std::string text) {
     events_.push_back({&alarm, std::move(text)});
   }
@@ -304,7 +303,6 @@ class ChannelCore {
   const bool virtual_time_;
   channel_setup::ChannelSetup machine_;
   std::shared_ptr<const machine::Parameters> parameters_, next_parameters_;
-  idl::program::ProgramList programs_;
 
   ChannelStates states_;
   StreamWriter stream_;
@@ -330,8 +328,7 @@ class ChannelCore {
   bool recovered_ = false;
   std::uint32_t reset_count_ = 0;
 
-  idl::program::ProgramEntry selected_;
-  std::string before_temporary_;         // name of the program selected before a temporary one
+  ProgramSelection selection_;
   std::optional<RestartPoint> restart_;  // of the program, until it is reached
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended

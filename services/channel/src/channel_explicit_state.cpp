@@ -13,7 +13,7 @@ constexpr const char* this_boot = "snapshot";  // common variables are kept, too
 struct ChannelFields {
   // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_,
   // mdi_. No fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
-  // parameters_, next_parameters_, programs_, cycle_service_. No field, nothing is under way and
+  // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and
   // the state of the service has the axes: homing_. No fields, nothing is under way: states_, table_change_,
   // mdi_flow_, skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they
   // are made again: program_path_, manual_path_, program_cache_, mdi_cache_, bodies_, unusable_, state_.
@@ -27,7 +27,8 @@ struct ChannelFields {
           visit("lock", c.lock_);
       visit("mode", c.mode_), visit("switches", c.switches_);
       Interlock::fields(c.interlock_, visit);
-      visit("reset_count", c.reset_count_), visit("selected", c.selected_);
+      visit("reset_count", c.reset_count_);
+      ProgramSelection::fields(c.selection_, visit);
       visit("program_start", c.program_start_), visit("interrupted", c.interrupted_);
       visit("modal", c.mdi_.modal), visit("position", c.machine_start_), visit("progress", c.progress_);
       visit("tool", c.tool_), visit("spindle_programmed", c.spindle_programmed_);
@@ -35,7 +36,6 @@ struct ChannelFields {
       // Written where there is something: older recordings have no such state.
       constexpr bool reads = !std::is_const_v<Core>;
       if (reads || c.tool_since_ != 0) visit("tool_since", c.tool_since_);
-      if (reads || !c.before_temporary_.empty()) visit("before_temporary", c.before_temporary_);
     }
   };
 };

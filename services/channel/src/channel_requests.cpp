@@ -171,7 +171,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
 // What was only tested, and a program of a command, is no part.
 void ChannelCore::count_part() {
   const bool tested = switches_.dry_run || switches_.auxiliary_lock || lock_.any();
-  if (states_.is(Activity::program) && !tested && !is_temporary(selected_.name)) ++parts_;
+  if (states_.is(Activity::program) && !tested && !is_temporary(selected().name)) ++parts_;
 }
 
 void ChannelCore::on_table_changed(const std::string& reason) {
@@ -224,11 +224,8 @@ void ChannelCore::settle_cycle() {
     return;
   }
   const bool call = answer.outcome == CycleOutcome::CALL;
-  const auto& stored = programs_.programs;
-  if (call && std::none_of(stored.begin(), stored.end(), [&](const auto& entry) {
-        return entry.name == answer.program && entry.revision >= answer.revision;
-      }))
-    return;
+  const auto* stored = selection_.stored(answer.program);
+  if (call && (stored == nullptr || stored->revision < answer.revision)) return;
   cycle_call_.close();
   flow().cycle_answered(call ? 1 : 0);
   states_.end_wait(interlock_.holds());

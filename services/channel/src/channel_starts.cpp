@@ -19,18 +19,16 @@ void ChannelCore::configure_flow(ProgramFlow& flow) {
 
 Answer ChannelCore::start_program(const Entry& entry) {
   const auto& restart = entry.restart;
-  for (const auto& stored : programs_.programs)
-    if (stored.name == selected_.name) {
-      if (restart.sequence != 0 && stored.revision != selected_.revision)
-        return refuse(alarm::program_missing,
-                      "Program '" + selected_.name + "' has changed since it was interrupted: reset first");
-      selected_ = stored;
-    }
+  const auto* stored = selection_.stored(selected().name);
+  if (stored != nullptr && restart.sequence != 0 && stored->revision != selected().revision)
+    return refuse(alarm::program_missing,
+                  "Program '" + selected().name + "' has changed since it was interrupted: reset first");
+  selection_.renew();
   apply_parameters();
   adopt_position();
   skip_.end();
   finish_tapping();
-  auto& text = program_cache_.open(selected_);
+  auto& text = program_cache_.open(selected());
   if (restart.sequence == 0) program_start_ = machine_start_;
   program_path_.start(machine_start_);
   mdi_.frames_kept = false;
@@ -48,11 +46,11 @@ Answer ChannelCore::start_from_line(std::uint32_t line) {
   if (mode_ != Mode::AUTO) return refuse(alarm::request_invalid, "A start from a line needs mode AUTO");
   if (!states_.in<Idle>()) return refuse(alarm::request_invalid, "The channel is busy");
   if (auto answer = startable(); !answer.accepted) return answer;
-  if (selected_.name.empty()) return refuse(alarm::program_missing, "No program is selected");
+  if (selected().name.empty()) return refuse(alarm::program_missing, "No program is selected");
   // The last line need not end with a line feed.
-  if (!(line >= 1 && line <= selected_.lines + 1))
-    return refuse(alarm::search_failed, "Program " + selected_.name + " has lines 1 to " +
-                                            std::to_string(selected_.lines) + ", not " +
+  if (!(line >= 1 && line <= selected().lines + 1))
+    return refuse(alarm::search_failed, "Program " + selected().name + " has lines 1 to " +
+                                            std::to_string(selected().lines) + ", not " +
                                             std::to_string(line));
   Entry entry;
   entry.line = line;

@@ -113,10 +113,10 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.cycle = link().executed();
   s.mode = mode_;
   s.state = run_state();
-  s.program = selected_.name;
-  s.program_revision = selected_.revision;
+  s.program = selected().name;
+  s.program_revision = selected().revision;
   s.line = program_line();
-  s.lines_total = selected_.lines;
+  s.lines_total = selected().lines;
   const auto& modal = executed_modal();
   s.modal = modal_codes(modal);
   const auto drive = link().drive_mode();

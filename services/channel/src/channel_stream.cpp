@@ -187,8 +187,8 @@ void ChannelCore::store_state(FlowState state, idl::stream::ChannelSnapshot& out
   const auto* path = &this->path();
   auto point = progress_.point;
   ChannelSnapshot s;
-  s.crc = selected_.crc32;
-  s.revision = selected_.revision;
+  s.crc = selected().crc32;
+  s.revision = selected().revision;
   s.tool = tool_;
   s.start = program_start_;
   s.offset_on = manual_.offset_on();
