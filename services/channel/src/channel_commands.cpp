@@ -198,7 +198,7 @@ void ChannelCore::put_into_spindle(std::uint32_t tool) {
 Answer ChannelCore::state_tool(std::uint32_t tool) {
   if (!states_.in<Idle>()) return refuse(alarm::request_invalid, "The channel is busy");
   put_into_spindle(tool);
-  mdi_.modal.tool = static_cast<std::uint16_t>(tool);
+  mdi_.set_tool(tool);
   return {};
 }
 
@@ -286,8 +286,8 @@ void ChannelCore::reset() {
       states_.in<Interrupted>() || (link().resuming() && link().drive_mode() == DriveMode::HELD);
   const bool moving = states_.busy() && link().state() == LinkState::active && !stands && !states_.in<Held>();
   states_.forget_suspended();
-  mdi_.modal = power_on_modal();
-  mdi_.frames_kept = false;
+  mdi_.set_modal(power_on_modal());
+  mdi_.forget_frames();
   if (moving) {
     states_.reset_at_rest();
     manual_.stop();

@@ -16,12 +16,12 @@ ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
       program_path_(machine_),
       manual_path_(machine_),
       program_flow_(machine_),
-      mdi_flow_(machine_),
+      mdi_(machine_),
       bodies_(machine_) {
   machine_.resolve = [this](std::string_view name) {
-    return (states_.is(Activity::mdi) ? mdi_cache_ : program_cache_).call(selection_.programs(), name);
+    return (states_.is(Activity::mdi) ? mdi_.texts() : program_cache_).call(selection_.programs(), name);
   };
-  mdi_.modal = power_on_modal();
+  mdi_.set_modal(power_on_modal());
 }
 
 language::ModalState ChannelCore::power_on_modal() const {
@@ -41,7 +41,7 @@ void ChannelCore::apply_parameters() {
   const bool first = !machine_.configured();
   try {
     machine_.configure(*next_parameters_);
-    if (first) mdi_.modal = power_on_modal();
+    if (first) mdi_.set_modal(power_on_modal());
   } catch (const std::exception& e) {
     if (first)
       unusable_ = {&machine::alarm_of(e), e.what()};
@@ -153,11 +153,7 @@ void ChannelCore::finish(bool program_end) {
   machine_start_ = machine_position();
   manual_.end_wheel();
   bodies_.forget_jog();
-  if (states_.is(Activity::mdi) && !reset) {  // a reset has its own modal state
-    mdi_.modal = mdi_flow_.modal();
-    mdi_.frames_kept = true;
-    mdi_.modal.tool = static_cast<std::uint16_t>(tool_);
-  }
+  if (states_.is(Activity::mdi) && !reset) mdi_.end(tool_);  // a reset has its own modal state
   if (program_end && states_.is(Activity::program)) progress_.executed = {};
   keep_variables();
   if (states_.is(Activity::program)) {
@@ -189,17 +185,17 @@ void ChannelCore::end_snapshot() {
 
 std::optional<ChunkWanted> ChannelCore::wanted() const {
   if (!states_.interpreting()) return std::nullopt;
-  return states_.is(Activity::mdi) ? mdi_cache_.wanted() : program_cache_.wanted();
+  return states_.is(Activity::mdi) ? mdi_.texts().wanted() : program_cache_.wanted();
 }
 
 void ChannelCore::deliver(const std::string& name, std::uint64_t offset, std::vector<std::uint8_t> data) {
   program_cache_.deliver(name, offset, data);
-  mdi_cache_.deliver(name, offset, data);
+  mdi_.texts().deliver(name, offset, data);
 }
 
 void ChannelCore::chunk_failed(const std::string& name) {
   program_cache_.fail(name);
-  mdi_cache_.fail(name);
+  mdi_.texts().fail(name);
 }
 
 }  // namespace trunnion::channel

@@ -28,6 +28,7 @@
 #include "interlock.hpp"
 #include "machine/alarm_definition.hpp"
 #include "manual_motion.hpp"
+#include "mdi.hpp"
 #include "program_cache.hpp"
 #include "program_execution/program_flow.hpp"
 #include "program_execution/tapping.hpp"
@@ -43,7 +44,6 @@ namespace trunnion::channel {
 using idl::channel::Mode;
 using program_execution::Entry;
 using program_execution::FlowState;
-using program_execution::ProgramFlow;
 using program_execution::RestartPoint;
 using program_execution::Tapping;
 
@@ -161,15 +161,6 @@ class ChannelCore {
 
  private:
   friend struct ChannelFields;  // channel_explicit_state.cpp
-  /// MDI, from line to line.
-  struct Mdi {
-    std::string line, who;
-    std::uint8_t role = 0;  ///< as in ChannelRequest
-    std::optional<language::StringSource> source;
-    language::ModalState modal;
-    bool frames_kept = false;  ///< the interpreter still has the frames of the line before
-  };
-
   // channel_commands.cpp: what an operator may ask, and when.
   Answer refuse(const machine::AlarmDefinition& alarm, std::string reason) const;
   Answer refuse(Refusal refusal) const { return refuse(*refusal.alarm, std::move(refusal.reason)); }
@@ -280,8 +271,8 @@ class ChannelCore {
   void show_positions();
   std::string detail() const;
 
-  ProgramFlow& flow() { return states_.is(Activity::mdi) ? mdi_flow_ : program_flow_; }
-  const ProgramFlow& flow() const { return states_.is(Activity::mdi) ? mdi_flow_ : program_flow_; }
+  ProgramFlow& flow() { return states_.is(Activity::mdi) ? mdi_.flow() : program_flow_; }
+  const ProgramFlow& flow() const { return states_.is(Activity::mdi) ? mdi_.flow() : program_flow_; }
   ChannelPath& path() { return on_program_path() ? program_path_ : manual_path_; }
   const ChannelPath& path() const { return on_program_path() ? program_path_ : manual_path_; }
   bool on_program_path() const {
@@ -314,8 +305,9 @@ class ChannelCore {
   Homing homing_;
   // The program's motion stays planned while the axes are moved by MDI, by hand or to the program's start.
   ChannelPath program_path_, manual_path_;
-  ProgramFlow program_flow_, mdi_flow_;
-  ProgramCache program_cache_, mdi_cache_;
+  ProgramFlow program_flow_;
+  Mdi mdi_;
+  ProgramCache program_cache_;
   ChannelBodies bodies_;
   SkipMove skip_;
   ExactStopCheck exact_stop_;
@@ -333,8 +325,7 @@ class ChannelCore {
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended
   std::uint32_t parts_ = 0;
-  LeftProgram interrupted_;  // by an emergency stop or the end of the control: its line is offered
-  Mdi mdi_;
+  LeftProgram interrupted_;     // by an emergency stop or the end of the control: its line is offered
   AxisValues machine_start_{};  // of the path at rest, in machine coordinates
   PathProgress progress_;
   std::uint32_t tool_ = 0;        // in the spindle

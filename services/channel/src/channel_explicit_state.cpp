@@ -11,12 +11,12 @@ constexpr const char* this_boot = "snapshot";  // common variables are kept, too
 
 /// The list of fields of a channel that is idle; all others are empty then or made when something starts.
 struct ChannelFields {
-  // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_,
-  // mdi_. No fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
+  // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_.
+  // No fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
   // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and
   // the state of the service has the axes: homing_. No fields, nothing is under way: states_, table_change_,
-  // mdi_flow_, skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they
-  // are made again: program_path_, manual_path_, program_cache_, mdi_cache_, bodies_, unusable_, state_.
+  // skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they
+  // are made again: program_path_, manual_path_, program_cache_, bodies_, unusable_, state_.
   template <class Core>
   struct Of {
     Core& core;
@@ -30,7 +30,8 @@ struct ChannelFields {
       visit("reset_count", c.reset_count_);
       ProgramSelection::fields(c.selection_, visit);
       visit("program_start", c.program_start_), visit("interrupted", c.interrupted_);
-      visit("modal", c.mdi_.modal), visit("position", c.machine_start_), visit("progress", c.progress_);
+      Mdi::fields(c.mdi_, visit);
+      visit("position", c.machine_start_), visit("progress", c.progress_);
       visit("tool", c.tool_), visit("spindle_programmed", c.spindle_programmed_);
       visit("ended", c.ended_), visit("parts", c.parts_);
       // Written where there is something: older recordings have no such state.
@@ -50,7 +51,7 @@ bus::Json ChannelCore::explicit_state(std::string& why_not) const {
   else if (!link().at_rest() || !handshake_.at_rest() || !table_change_.at_rest() || !cycle_call_.at_rest() ||
            !manual_.offset_at_rest() || next_parameters_)
     why_not = "the channel comes to rest";
-  else if (mdi_.frames_kept)
+  else if (mdi_.frames_kept())
     why_not = "the coordinate frames of the MDI lines since the last program or reset are in no snapshot";
   if (!why_not.empty()) return nullptr;
   auto state = snapshot::written(ChannelFields::Of<const ChannelCore>{*this});

@@ -8,7 +8,7 @@ namespace trunnion::channel {
 void ChannelCore::guard(machine::CollisionMode mode, const collision_guard::BodiesText& bodies) {
   bodies_.demand(mode, bodies);
   program_flow_.set_guard(bodies_.of_program());
-  mdi_flow_.set_guard(bodies_.of_manual());
+  mdi_.flow().set_guard(bodies_.of_manual());
   if (parameters_) configure_guards();
 }
 
@@ -42,7 +42,7 @@ std::string ChannelCore::approach_obstacle(const std::vector<language::Command>&
 }
 
 language::ModalState ChannelCore::by_hand_modal() const {
-  auto modal = mdi_.modal;
+  auto modal = mdi_.modal();
   modal.tool = static_cast<std::uint16_t>(tool_);
   return modal;
 }

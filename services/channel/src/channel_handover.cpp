@@ -11,7 +11,7 @@ std::optional<HandOver> ChannelCore::hand_over() const {
   state.mode = mode_;
   state.program = selected().name;
   state.program_revision = selected().revision;
-  state.modal = mdi_.modal;
+  state.modal = mdi_.modal();
   state.before_temporary = selection_.before_temporary();
   state.tool = tool_;
   state.switches = switches_;
@@ -22,7 +22,7 @@ std::optional<HandOver> ChannelCore::hand_over() const {
 
 void ChannelCore::take_over(const HandOver& from) {
   mode_ = from.mode;
-  mdi_.modal = from.modal;
+  mdi_.set_modal(from.modal);
   tool_ = from.tool;
   switches_ = from.switches;
   spindle_programmed_ = from.spindle_programmed;

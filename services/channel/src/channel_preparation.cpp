@@ -121,7 +121,7 @@ void ChannelCore::end_preparation() {
   if (const auto* suspended = states_.suspended()) {
     progress_ = suspended->progress;
     progress_.reached = progress_.executed.sequence;
-    mdi_.modal = suspended->mdi_modal;
+    mdi_.set_modal(suspended->mdi_modal);
     program_path_.trajectory().retrace(false);
     states_.end_preparation();
     return;
@@ -142,9 +142,9 @@ void ChannelCore::suspend() {
   program.machine = machine_start_;
   program.tool = tool_;
   program.progress = progress_;
-  program.mdi_modal = mdi_.modal;
-  mdi_.modal = executed_modal();
-  mdi_.modal.tool = static_cast<std::uint16_t>(tool_);
+  program.mdi_modal = mdi_.modal();
+  mdi_.set_modal(executed_modal());
+  mdi_.set_tool(tool_);
   states_.suspend(program);
   manual_path_.start(machine_start_);
 }

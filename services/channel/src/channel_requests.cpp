@@ -71,15 +71,14 @@ void ChannelCore::run_pending(FlowState state) {
 // As in ParameterRequest: what texts change is the matter of who has stored them, whoever starts or calls
 // them; what a line changes by itself, of who has entered it.
 std::uint8_t ChannelCore::role() const {
-  const bool mdi = states_.is(Activity::mdi);
-  const auto stored = (mdi ? mdi_cache_ : program_cache_).role();
-  return stored.value_or(mdi ? mdi_.role : machine::role::machine_operator);
+  if (states_.is(Activity::mdi)) return mdi_.role();
+  return program_cache_.role().value_or(machine::role::machine_operator);
 }
 
 void ChannelCore::change_table(const language::Command& command) {
   const auto channel = "channel " + std::to_string(number_);
   table_change_.begin(command, role(),
-                      states_.is(Activity::mdi) ? "MDI of " + channel + " by " + mdi_.who
+                      states_.is(Activity::mdi) ? "MDI of " + channel + " by " + mdi_.who()
                                                 : program_name() + " line " +
                                                       std::to_string(flow().main_line()) + " of " + channel);
 }
@@ -194,7 +193,7 @@ void ChannelCore::begin_cycle(const language::Command& command) {
   auto request = cycle_request(command, flow());
   request.program = program_name();
   // The text of the cycle is the builder's; what it is to do is said by the line that calls it.
-  request.role = states_.is(Activity::mdi) ? std::min(mdi_.role, role()) : role();
+  request.role = states_.is(Activity::mdi) ? std::min(mdi_.role_of_line(), role()) : role();
   const auto position = machine_position();
   request.machine.assign(position.begin(), position.end());
   cycle_call_.begin(std::move(request));

@@ -31,7 +31,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   auto& text = program_cache_.open(selected());
   if (restart.sequence == 0) program_start_ = machine_start_;
   program_path_.start(machine_start_);
-  mdi_.frames_kept = false;
+  mdi_.forget_frames();
   configure_flow(program_flow_);
   program_flow_.start(program_path_.trajectory(), text, program_start_, power_on_modal(), *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
@@ -71,25 +71,23 @@ Answer ChannelCore::start_mdi(const idl::channel::ChannelRequest& request) {
   if (auto answer = startable(); !answer.accepted) return answer;
   apply_parameters();
   adopt_position();
-  mdi_.line = request.block, mdi_.who = request.who, mdi_.role = request.role;
-  mdi_.source.emplace(mdi_.line);
-  mdi_cache_.clear();
+  mdi_.enter(request);
   begin_manual(Activity::mdi);
-  auto& modal = mdi_.modal;
-  modal.tool = static_cast<std::uint16_t>(tool_);
+  mdi_.set_tool(tool_);
+  const auto& modal = mdi_.modal();
   const auto position = modal.transformation == language::Transformation::rtcp
                             ? machine_.tip_from_machine(machine_start_, modal.tool_length)
                             : machine_start_;
   manual_path_.start(position, modal.transformation, modal.tool_length);
-  configure_flow(mdi_flow_);
-  mdi_flow_.start(manual_path_.trajectory(), *mdi_.source, position, modal,
-                  states_.suspended() != nullptr ? program_flow_.variables() : *variables_, {},
-                  mdi_.frames_kept ? language::Beginning::line : language::Beginning::program);
+  auto& flow = mdi_.flow();
+  configure_flow(flow);
+  mdi_.start(manual_path_.trajectory(), position,
+             states_.suspended() != nullptr ? program_flow_.variables() : *variables_);
   // What is wrong with the line is the answer to the operator who typed it.
-  const auto state = mdi_flow_.fill(false);
+  const auto state = flow.fill(false);
   if (state == FlowState::alarm && manual_path_.trajectory().at_rest()) {
     states_.end();
-    return {false, mdi_flow_.alarm_number(), "MDI:" + mdi_flow_.alarm_text()};
+    return {false, flow.alarm_number(), "MDI:" + flow.alarm_text()};
   }
   return {};
 }

@@ -57,7 +57,7 @@ std::uint32_t ChannelCore::program_line() const {
 }
 
 const language::ModalState& ChannelCore::executed_modal() const {
-  if (!states_.interpreting() || !flow().started()) return mdi_.modal;
+  if (!states_.interpreting() || !flow().started()) return mdi_.modal();
   return *flow().modals().at(executed_sequence());
 }
 
@@ -68,12 +68,11 @@ language::ProgramFrame ChannelCore::executed_frame(const language::ModalState& m
   const auto* suspended = states_.suspended();
   if (states_.interpreting())
     known = flow().frames().at(executed_sequence());
-  else if (suspended != nullptr && !mdi_.frames_kept)
+  else if (suspended != nullptr && !mdi_.frames_kept())
     known = program_flow_.frames().at(suspended->progress.executed.sequence);
   if (known != nullptr) return *known;
   language::ProgramFrame frame;
-  const auto* typed = mdi_.frames_kept ? mdi_flow_.frames().newest() : nullptr;
-  if (typed != nullptr) frame = *typed;
+  if (const auto* typed = mdi_.frame()) frame = *typed;
   frame.set_work_offset(machine_.work_offset(modal.work_offset));
   frame.set_tilt(modal.tilt);
   return frame;
