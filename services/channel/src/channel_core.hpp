@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -159,8 +160,32 @@ class ChannelCore {
   const StreamLink& link() const { return stream_.link(); }
   bool configured() const { return parameters_ != nullptr; }
 
+  /// The state of a channel that is idle; everything else is empty then, or made when something starts.
+  // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_. No
+  // fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
+  // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and the state of the
+  // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, skip_,
+  // exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they are made again:
+  // program_path_, manual_path_, program_cache_, bodies_, unusable_, state_.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("link", self.stream_.link()), visit("handshake", self.handshake_),
+        visit("cycle_call", self.cycle_call_), visit("lock", self.lock_);
+    visit("mode", self.mode_), visit("switches", self.switches_);
+    Interlock::fields(self.interlock_, visit);
+    visit("reset_count", self.reset_count_);
+    ProgramSelection::fields(self.selection_, visit);
+    visit("program_start", self.program_start_), visit("interrupted", self.interrupted_);
+    Mdi::fields(self.mdi_, visit);
+    visit("position", self.machine_start_), visit("progress", self.progress_);
+    visit("tool", self.tool_), visit("spindle_programmed", self.spindle_programmed_);
+    visit("ended", self.ended_), visit("parts", self.parts_);
+    // Written where there is something: older recordings have no such state.
+    constexpr bool reads = !std::is_const_v<Self>;
+    if (reads || self.tool_since_ != 0) visit("tool_since", self.tool_since_);
+  }
+
  private:
-  friend struct ChannelFields;  // channel_explicit_state.cpp
   // channel_commands.cpp: what an operator may ask, and when.
   Answer refuse(const machine::AlarmDefinition& alarm, std::string reason) const;
   Answer refuse(Refusal refusal) const { return refuse(*refusal.alarm, std::move(refusal.reason)); }
