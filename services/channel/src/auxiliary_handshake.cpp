@@ -33,24 +33,12 @@ void AuxiliaryHandshake::lower_strobe() {
   outgoing_ = request_;
 }
 
-void AuxiliaryHandshake::begin_table(idl::parameters::ParameterRequest request) {
-  outgoing_table_ = std::move(request);
-  table_open_ = true;
-}
-
-bool AuxiliaryHandshake::finish_table() { return std::exchange(table_open_, false); }
-
 void AuxiliaryHandshake::cancel() {
-  table_open_ = false;
   if (open_) lower_strobe();
 }
 
 std::optional<idl::channel::AuxiliaryRequest> AuxiliaryHandshake::take_request() {
   return std::exchange(outgoing_, std::nullopt);
-}
-
-std::optional<idl::parameters::ParameterRequest> AuxiliaryHandshake::take_table_request() {
-  return std::exchange(outgoing_table_, std::nullopt);
 }
 
 }  // namespace trunnion::channel

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program asks of others while the axes are at rest: M S T of the PLC, changes of tables of their
-// owner.
+// What a program asks of the PLC while the axes are at rest: M S T.
 #pragma once
 
 #include <optional>
@@ -29,24 +28,19 @@ class AuxiliaryHandshake {
   /// The PLC's answer. Only the open function's number counts.
   Outcome finish(const idl::plc::AuxiliaryDone& done);
 
-  void begin_table(idl::parameters::ParameterRequest request);
-  /// The owner's answer; false when no change is open.
-  bool finish_table();
-
   /// Gives up what is open.
   void cancel();
 
   /// Nothing is open and everything has been taken: the state that fields() lists is whole.
-  bool at_rest() const { return !open_ && !table_open_ && !outgoing_ && !outgoing_table_; }
-  /// No field, the constructor sets it: channel_. No fields, at rest nothing is open: open_, table_open_,
-  /// request_, outgoing_, outgoing_table_.
+  bool at_rest() const { return !open_ && !outgoing_; }
+  /// No field, the constructor sets it: channel_. No fields, at rest nothing is open: open_, request_,
+  /// outgoing_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("number", self.number_);
   }
 
   std::optional<idl::channel::AuxiliaryRequest> take_request();
-  std::optional<idl::parameters::ParameterRequest> take_table_request();
 
  private:
   // A restarted process counts on from the next epoch: fewer functions than this fall into one.
@@ -55,10 +49,9 @@ class AuxiliaryHandshake {
 
   std::uint16_t channel_;
   std::uint32_t number_ = 0;
-  bool open_ = false, table_open_ = false;
+  bool open_ = false;
   idl::channel::AuxiliaryRequest request_;
   std::optional<idl::channel::AuxiliaryRequest> outgoing_;
-  std::optional<idl::parameters::ParameterRequest> outgoing_table_;
 };
 
 }  // namespace trunnion::channel

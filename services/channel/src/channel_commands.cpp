@@ -32,13 +32,11 @@ Answer ChannelCore::refuse(const machine::AlarmDefinition& alarm, std::string re
 
 Answer ChannelCore::operable() const {
   if (!configured()) return refuse(alarm::not_ready, "The channel has no parameters yet");
-  if (!ready_) return refuse(alarm::not_ready, "The cluster is not ready: see the services");
-  if (!external_hold_.empty()) return refuse(alarm::not_ready, external_hold_);
-  if (!drive_stopped_.empty() && !states_.in<Interrupted>()) return refuse(alarm::not_ready, drive_stopped_);
-  if (!guard_error_.empty()) return refuse(alarm::bodies_invalid, guard_error_);
+  if (auto refusal = interlock_.motion(states_.in<Interrupted>())) return refuse(std::move(*refusal));
+  if (!bodies_.error().empty()) return refuse(alarm::bodies_invalid, bodies_.error());
   if (!recovered_) return refuse(alarm::not_ready, "The drive has not answered yet");
   if (link().drive_mode() == DriveMode::OFF) return refuse(alarm::not_ready, "The drives are off");
-  if (homing_ || link().drive_mode() == DriveMode::HOMING)
+  if (homing_.active() || link().drive_mode() == DriveMode::HOMING)
     return refuse(alarm::not_ready,
                   "An axis searches its reference: wait until it has found it, or end it with feed hold");
   return {};
@@ -49,43 +47,27 @@ Answer ChannelCore::startable() const {
   if (auto answer = operable(); !answer.accepted) return answer;
   std::string names;
   for (const auto& axis : machine::drive_axes(*parameters_))
-    if (unreferenced_.contains(axis.number)) names += (names.empty() ? "" : ", ") + axis.name;
+    if (!homing_.referenced(axis.number)) names += (names.empty() ? "" : ", ") + axis.name;
   if (names.empty()) return {};
   return refuse(alarm::not_homed,
                 "Axes without a reference: " + names + ". Mode REF, then reference return of each");
 }
 
-Answer ChannelCore::may_start() const {
-  if (!control_.start_inhibit) return {};
-  return refuse(
-      alarm::not_ready,
-      "No cycle start: " + (control_.reason.empty() ? "the machine's PLC inhibits it" : control_.reason));
-}
-
-Answer ChannelCore::may_move_by_hand() const {
-  if (!control_.manual_inhibit) return {};
-  return refuse(
-      alarm::not_ready,
-      "No manual motion: " + (control_.reason.empty() ? "the machine's PLC inhibits it" : control_.reason));
-}
-
 // A jog and the search for a reference stop at once.
 void ChannelCore::set_control(const idl::plc::ChannelControl& control) {
-  const bool inhibited = control.manual_inhibit && !control_.manual_inhibit;
-  control_ = control;
-  if (inhibited) {
+  if (interlock_.set_control(control)) {
     manual_.stop();
     stop_jog();
     end_homing();
   }
-  if (!control_.sets_overrides) return;
-  switches_.feed_override = commands::feed_override.clamp(control_.feed_override);
-  switches_.rapid_override = commands::rapid_override.clamp(control_.rapid_override);
-  switches_.spindle_override = commands::spindle_override.clamp(control_.spindle_override);
+  if (!control.sets_overrides) return;
+  switches_.feed_override = commands::feed_override.clamp(control.feed_override);
+  switches_.rapid_override = commands::rapid_override.clamp(control.rapid_override);
+  switches_.spindle_override = commands::spindle_override.clamp(control.spindle_override);
 }
 
 Answer ChannelCore::set_override(double& override_, double fraction) {
-  if (control_.sets_overrides)
+  if (control().sets_overrides)
     return refuse(alarm::request_invalid,
                   "The override switches of the machine's panel are in force: turn them");
   override_ = fraction;
@@ -178,28 +160,24 @@ Answer ChannelCore::set_mode(Mode mode) {
 Answer ChannelCore::select(const std::string& name) {
   if (!states_.in<Idle>())
     return refuse(alarm::request_invalid, "A program cannot be selected while the channel is busy");
-  for (const auto& entry : programs_.programs)
-    if (entry.name == name) {
-      interrupted_ = {};
-      if (is_temporary(name) && !is_temporary(selected_.name)) before_temporary_ = selected_.name;
-      selected_ = entry;
-      progress_.executed = {};
-      return {};
-    }
-  return refuse(alarm::program_missing, "Program '" + name + "' is not in the store");
+  if (!selection_.select(name))
+    return refuse(alarm::program_missing, "Program '" + name + "' is not in the store");
+  interrupted_ = {};
+  progress_.executed = {};
+  return {};
 }
 
 Answer ChannelCore::cycle_start() {
-  if (auto answer = may_start(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.start()) return refuse(std::move(*refusal));
   if (auto answer = startable(); !answer.accepted) return answer;
   if (states_.in<Idle>()) {
     if (mode_ != Mode::AUTO)
       return refuse(alarm::request_invalid, "Cycle start needs mode AUTO (or an MDI line)");
-    if (selected_.name.empty()) return refuse(alarm::program_missing, "No program is selected");
-    if (interrupted_.line != 0 && interrupted_.name == selected_.name)
+    if (selected().name.empty()) return refuse(alarm::program_missing, "No program is selected");
+    if (interrupted_.line != 0 && interrupted_.name == selected().name)
       return refuse(
           alarm::request_invalid,
-          selected_.name + " was left in line " + std::to_string(interrupted_.line) +
+          selected().name + " was left in line " + std::to_string(interrupted_.line) +
               ": start from that line, or reset the channel to start the program from its beginning");
     return start_program({});
   }
@@ -220,7 +198,7 @@ void ChannelCore::put_into_spindle(std::uint32_t tool) {
 Answer ChannelCore::state_tool(std::uint32_t tool) {
   if (!states_.in<Idle>()) return refuse(alarm::request_invalid, "The channel is busy");
   put_into_spindle(tool);
-  mdi_.modal.tool = static_cast<std::uint16_t>(tool);
+  mdi_.set_tool(tool);
   return {};
 }
 
@@ -239,11 +217,11 @@ Answer ChannelCore::continue_after_interruption() {
 
 Answer ChannelCore::reference(std::uint8_t index) {
   if (mode_ != Mode::REF) return refuse(alarm::request_invalid, "Reference return needs mode REF");
-  if (auto answer = may_move_by_hand(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.manual_motion()) return refuse(std::move(*refusal));
   auto move = manual_.reference(index);
   if (auto* refusal = std::get_if<Refusal>(&move)) return refuse(std::move(*refusal));
   const auto number = machine_.channel_axes().number[index];
-  if (needs_homing(number)) return begin_homing(number);
+  if (homing_.needed(number, parameters_.get())) return begin_homing(number);
   if (!states_.busy() && startable().accepted) {
     adopt_position();
     if (auto refusal = guard_reference(std::get<AxisMove>(move))) return refuse(std::move(*refusal));
@@ -251,10 +229,18 @@ Answer ChannelCore::reference(std::uint8_t index) {
   return start_move(std::get<AxisMove>(move));
 }
 
+Answer ChannelCore::begin_homing(std::uint16_t axis) {
+  if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
+  if (auto answer = operable(); !answer.accepted) return answer;
+  homing_.begin(axis);
+  advance_homing();
+  return {};
+}
+
 Answer ChannelCore::jog(const ChannelRequest& request) {
   if (mode_ != Mode::JOG) return refuse(alarm::request_invalid, "Jog needs mode JOG");
   if (auto error = manual_.jog_error(request.axis, request.speed)) return refuse(std::move(*error));
-  if (auto answer = may_move_by_hand(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.manual_motion()) return refuse(std::move(*refusal));
   if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
   adopt_position();
   auto move = manual_.jog(request.axis, request.speed, request.increment, machine_start_);
@@ -300,8 +286,8 @@ void ChannelCore::reset() {
       states_.in<Interrupted>() || (link().resuming() && link().drive_mode() == DriveMode::HELD);
   const bool moving = states_.busy() && link().state() == LinkState::active && !stands && !states_.in<Held>();
   states_.forget_suspended();
-  mdi_.modal = power_on_modal();
-  mdi_.frames_kept = false;
+  mdi_.set_modal(power_on_modal());
+  mdi_.forget_frames();
   if (moving) {
     states_.reset_at_rest();
     manual_.stop();

@@ -4,29 +4,24 @@
 #include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
-namespace {
-// Of the programs that a command of `trunnion` writes for itself.
-constexpr std::string_view temporary_suffix = ".tmp.nc";
-}  // namespace
-
-bool is_temporary(const std::string& program) { return program.ends_with(temporary_suffix); }
-
 ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
     : number_(channel),
       virtual_time_(virtual_time),
       machine_(channel),
       stream_(channel),
       handshake_(channel),
+      table_change_(channel),
       cycle_call_(channel),
       manual_(machine_),
       program_path_(machine_),
       manual_path_(machine_),
       program_flow_(machine_),
-      mdi_flow_(machine_) {
+      mdi_(machine_),
+      bodies_(machine_) {
   machine_.resolve = [this](std::string_view name) {
-    return (states_.is(Activity::mdi) ? mdi_cache_ : program_cache_).call(programs_, name);
+    return (states_.is(Activity::mdi) ? mdi_.texts() : program_cache_).call(selection_.programs(), name);
   };
-  mdi_.modal = power_on_modal();
+  mdi_.set_modal(power_on_modal());
 }
 
 language::ModalState ChannelCore::power_on_modal() const {
@@ -42,11 +37,11 @@ void ChannelCore::set_parameters(std::shared_ptr<const machine::Parameters> para
 
 // A revision is used from the next start on: setpoints of one motion are all made with one revision.
 void ChannelCore::apply_parameters() {
-  if (!next_parameters_ || !states_.in<Idle>() || !stream_.idle() || homing_) return;
+  if (!next_parameters_ || !states_.in<Idle>() || !stream_.idle() || homing_.active()) return;
   const bool first = !machine_.configured();
   try {
     machine_.configure(*next_parameters_);
-    if (first) mdi_.modal = power_on_modal();
+    if (first) mdi_.set_modal(power_on_modal());
   } catch (const std::exception& e) {
     if (first)
       unusable_ = {&machine::alarm_of(e), e.what()};
@@ -73,25 +68,23 @@ void ChannelCore::build_paths() {
 }
 
 void ChannelCore::set_tools(const idl::parameters::ToolTable& tools) {
-  tool_table_ = tools;
+  table_change_.set_tools(tools);
   machine_.set_tools(tools);
-  for (auto* guard : {program_guard_.get(), manual_guard_.get()})
-    if (guard != nullptr) guard->tools_changed();
+  bodies_.tools_changed();
 }
 void ChannelCore::set_offsets(const idl::parameters::WorkOffsets& offsets) { machine_.set_offsets(offsets); }
 
 void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
-  programs_ = programs;
+  selection_.set_programs(programs);
   settle_cycle();
-  if (!states_.in<Idle>()) return;
-  for (const auto& entry : programs_.programs)
-    if (entry.name == selected_.name) selected_ = entry;
+  if (states_.in<Idle>()) selection_.renew();
 }
 
 RunningProgram ChannelCore::running_program() const {
   auto left = interrupted_;
   if (program_under_way())
-    left = {selected_.name, selected_.revision, selected_.crc32, std::max<std::uint32_t>(program_line(), 1)};
+    left = {selected().name, selected().revision, selected().crc32,
+            std::max<std::uint32_t>(program_line(), 1)};
   return {left, ended_, parts_, tool_, tool_since_};
 }
 
@@ -146,9 +139,10 @@ void ChannelCore::stop_activity() {
   end_cycle();
   leave_temporary_program();
   restart_.reset();
-  jog_obstacle_.reset();
+  bodies_.forget_jog();
   manual_.end_wheel();
   handshake_.cancel();
+  table_change_.cancel();
   apply_parameters();
 }
 
@@ -158,12 +152,8 @@ void ChannelCore::finish(bool program_end) {
   finish_tapping();
   machine_start_ = machine_position();
   manual_.end_wheel();
-  jog_obstacle_.reset();
-  if (states_.is(Activity::mdi) && !reset) {  // a reset has its own modal state
-    mdi_.modal = mdi_flow_.modal();
-    mdi_.frames_kept = true;
-    mdi_.modal.tool = static_cast<std::uint16_t>(tool_);
-  }
+  bodies_.forget_jog();
+  if (states_.is(Activity::mdi) && !reset) mdi_.end(tool_);  // a reset has its own modal state
   if (program_end && states_.is(Activity::program)) progress_.executed = {};
   keep_variables();
   if (states_.is(Activity::program)) {
@@ -178,14 +168,8 @@ void ChannelCore::finish(bool program_end) {
   apply_parameters();
 }
 
-// A command that was killed cannot put back the operator's program: it is selected again when a temporary one
-// has ended. The command selects its own before each run.
 void ChannelCore::leave_temporary_program() {
-  if (!states_.in<Idle>() || !is_temporary(selected_.name)) return;
-  const auto name = std::exchange(before_temporary_, "");
-  selected_ = {};
-  for (const auto& entry : programs_.programs)
-    if (entry.name == name) selected_ = entry;
+  if (states_.in<Idle>()) selection_.leave_temporary();
 }
 
 // A program that is suspended for MDI has not ended.
@@ -201,17 +185,17 @@ void ChannelCore::end_snapshot() {
 
 std::optional<ChunkWanted> ChannelCore::wanted() const {
   if (!states_.interpreting()) return std::nullopt;
-  return states_.is(Activity::mdi) ? mdi_cache_.wanted() : program_cache_.wanted();
+  return states_.is(Activity::mdi) ? mdi_.texts().wanted() : program_cache_.wanted();
 }
 
 void ChannelCore::deliver(const std::string& name, std::uint64_t offset, std::vector<std::uint8_t> data) {
   program_cache_.deliver(name, offset, data);
-  mdi_cache_.deliver(name, offset, data);
+  mdi_.texts().deliver(name, offset, data);
 }
 
 void ChannelCore::chunk_failed(const std::string& name) {
   program_cache_.fail(name);
-  mdi_cache_.fail(name);
+  mdi_.texts().fail(name);
 }
 
 }  // namespace trunnion::channel

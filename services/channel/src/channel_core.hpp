@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // One channel: modes, program flow, holds and restarts. No DDS, no clock: the service brings the messages.
-// What it is doing is in ChannelStates; the parts that do it are ManualMotion, AuxiliaryHandshake and
-// StreamWriter.
+// What it is doing is in ChannelStates; the parts have the data of what they do. ProgramSelection and Mdi:
+// what is carried out. Interlock: what others let it do. ChannelBodies: what is in the way. ManualMotion,
+// Homing and StreamWriter: motion. AuxiliaryHandshake, TableChange and CycleCall: what is asked of others.
 #pragma once
-
-#include <set>
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,31 +17,35 @@
 #include "auxiliary_handshake.hpp"
 #include "axis_lock.hpp"
 #include "bus/json_type.hpp"
+#include "channel_bodies.hpp"
 #include "channel_path.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "channel_snapshot.hpp"
 #include "channel_states.hpp"
-#include "collision_guard/collision_guard.hpp"
 #include "contracts/types.hpp"
 #include "cycle_call.hpp"
 #include "exact_stop_check.hpp"
 #include "hand_over.hpp"
+#include "homing.hpp"
+#include "interlock.hpp"
 #include "machine/alarm_definition.hpp"
 #include "manual_motion.hpp"
+#include "mdi.hpp"
 #include "program_cache.hpp"
 #include "program_execution/program_flow.hpp"
 #include "program_execution/tapping.hpp"
 #include "program_record.hpp"
+#include "program_selection.hpp"
 #include "skip_move.hpp"
 #include "stream_writer.hpp"
 #include "switches.hpp"
+#include "table_change.hpp"
 
 namespace trunnion::channel {
 
 using idl::channel::Mode;
 using program_execution::Entry;
 using program_execution::FlowState;
-using program_execution::ProgramFlow;
 using program_execution::RestartPoint;
 using program_execution::Tapping;
 
@@ -49,9 +54,6 @@ struct ChannelEvent {
   const machine::AlarmDefinition* alarm;
   std::string text;
 };
-
-/// A command of `trunnion` has stored the program for itself: its name ends with .tmp.nc.
-bool is_temporary(const std::string& program);
 
 class ChannelCore {
  public:
@@ -110,10 +112,10 @@ class ChannelCore {
   void set_drive_stopped(const std::string& why);
   /// What the PLC decides of this channel; its overrides stay when it sets them no longer.
   void set_control(const idl::plc::ChannelControl& control);
-  const idl::plc::ChannelControl& control() const { return control_; }
+  const idl::plc::ChannelControl& control() const { return interlock_.control(); }
   /// Logical numbers of the axes whose position is not known: a reference return gives them their reference.
-  void set_unreferenced(std::set<std::uint16_t> axes) { unreferenced_ = std::move(axes); }
-  void set_ready(bool ready) { ready_ = ready; }
+  void set_unreferenced(std::set<std::uint16_t> axes) { homing_.set_unreferenced(std::move(axes)); }
+  void set_ready(bool ready) { interlock_.set_ready(ready); }
   /// As StreamWriter::set_replicas().
   void set_replicas(bool may_start, std::uint64_t floor) { stream_.set_replicas(may_start, floor); }
   /// As StreamWriter::set_limit().
@@ -133,7 +135,7 @@ class ChannelCore {
   std::optional<idl::stream::StreamRequest> take_stream_request() { return stream_.link().take_request(); }
   std::optional<idl::channel::AuxiliaryRequest> take_auxiliary() { return handshake_.take_request(); }
   std::optional<idl::parameters::ParameterRequest> take_table_request() {
-    return handshake_.take_table_request();
+    return table_change_.take_request();
   }
   std::optional<CycleRequest> take_cycle_request() { return cycle_call_.take_request(); }
   /// The variables, when a program or an MDI line has ended since the last time.
@@ -159,36 +161,37 @@ class ChannelCore {
   const StreamLink& link() const { return stream_.link(); }
   bool configured() const { return parameters_ != nullptr; }
 
- private:
-  friend struct ChannelFields;  // channel_explicit_state.cpp
-  /// Where a jog reaches the clearance of two bodies.
-  struct JogObstacle {
-    std::uint8_t axis = 0;
-    double position = 0, direction = 1;
-    std::string text;
-  };
-  /// An axis that the drive homes for this channel.
-  struct Homing {
-    std::uint16_t axis = 0;  ///< logical number
-    bool searches = false;   ///< demanded of the drive; false: it waits for the feed override, or brakes
-    bool ended = false;      ///< it is over when the drive has braked
-  };
-  /// MDI, from line to line.
-  struct Mdi {
-    std::string line, who;
-    std::uint8_t role = 0;  ///< as in ChannelRequest
-    std::optional<language::StringSource> source;
-    language::ModalState modal;
-    bool frames_kept = false;  ///< the interpreter still has the frames of the line before
-  };
+  /// The state of a channel that is idle; everything else is empty then, or made when something starts.
+  // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_. No
+  // fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
+  // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and the state of the
+  // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, skip_,
+  // exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they are made again:
+  // program_path_, manual_path_, program_cache_, bodies_, unusable_, state_.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("link", self.stream_.link()), visit("handshake", self.handshake_),
+        visit("cycle_call", self.cycle_call_), visit("lock", self.lock_);
+    visit("mode", self.mode_), visit("switches", self.switches_);
+    Interlock::fields(self.interlock_, visit);
+    visit("reset_count", self.reset_count_);
+    ProgramSelection::fields(self.selection_, visit);
+    visit("program_start", self.program_start_), visit("interrupted", self.interrupted_);
+    Mdi::fields(self.mdi_, visit);
+    visit("position", self.machine_start_), visit("progress", self.progress_);
+    visit("tool", self.tool_), visit("spindle_programmed", self.spindle_programmed_);
+    visit("ended", self.ended_), visit("parts", self.parts_);
+    // Written where there is something: older recordings have no such state.
+    constexpr bool reads = !std::is_const_v<Self>;
+    if (reads || self.tool_since_ != 0) visit("tool_since", self.tool_since_);
+  }
 
+ private:
   // channel_commands.cpp: what an operator may ask, and when.
   Answer refuse(const machine::AlarmDefinition& alarm, std::string reason) const;
   Answer refuse(Refusal refusal) const { return refuse(*refusal.alarm, std::move(refusal.reason)); }
   Answer operable() const;
   Answer startable() const;
-  Answer may_start() const;
-  Answer may_move_by_hand() const;
   Answer set_override(double& override_, double fraction);
   Answer set_mode(Mode mode);
   Answer select(const std::string& name);
@@ -197,18 +200,14 @@ class ChannelCore {
   void put_into_spindle(std::uint32_t tool);
   Answer continue_after_interruption();
   Answer reference(std::uint8_t index);
+  Answer begin_homing(std::uint16_t axis);
+  void advance_homing() { homing_.advance(stream_.link(), switches_.feed_override > 0); }
+  void end_homing() { homing_.end(stream_.link(), switches_.feed_override > 0); }
   Answer jog(const idl::channel::ChannelRequest& request);
   Answer renew_jog(std::uint32_t press);
   void stop_jog_without_renewal();
   void stop_jog();
   void reset();
-
-  // channel_homing.cpp: axes that search their reference in the drive.
-  bool needs_homing(std::uint16_t axis) const;
-  Answer begin_homing(std::uint16_t axis);
-  void advance_homing();
-  void end_homing();
-  std::string homing_detail() const;
 
   // channel_switches.cpp: dry run, locks, block skip, handwheel, retrace.
   Answer set_switch(const idl::channel::ChannelRequest& request);
@@ -252,16 +251,14 @@ class ChannelCore {
 
   // channel_guard.cpp: bodies of the machine.
   void configure_guards();
-  void hold_guarded_axes();
+  void hold_guarded_axes() { bodies_.hold_axes(lock_.mask(), lock_.hold({})); }
   void report_guard();
   void report_jog_obstacle();
   std::string approach_obstacle(const std::vector<language::Command>& moves);
   std::optional<Refusal> guard_jog(AxisMove& move);
   std::optional<Refusal> guard_reference(const AxisMove& move);
   double guard_handwheel(std::uint8_t axis, double distance);
-  bool guards_stop() const {
-    return manual_guard_ != nullptr && manual_guard_->mode() == machine::CollisionMode::stop;
-  }
+  language::ModalState by_hand_modal() const;
 
   // channel_requests.cpp: what a program asks of the rest of the control.
   void run_pending(FlowState state);
@@ -300,8 +297,8 @@ class ChannelCore {
   void show_positions();
   std::string detail() const;
 
-  ProgramFlow& flow() { return states_.is(Activity::mdi) ? mdi_flow_ : program_flow_; }
-  const ProgramFlow& flow() const { return states_.is(Activity::mdi) ? mdi_flow_ : program_flow_; }
+  ProgramFlow& flow() { return states_.is(Activity::mdi) ? mdi_.flow() : program_flow_; }
+  const ProgramFlow& flow() const { return states_.is(Activity::mdi) ? mdi_.flow() : program_flow_; }
   ChannelPath& path() { return on_program_path() ? program_path_ : manual_path_; }
   const ChannelPath& path() const { return on_program_path() ? program_path_ : manual_path_; }
   bool on_program_path() const {
@@ -313,7 +310,8 @@ class ChannelCore {
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;
   AxisValues drive_position() const;
-  std::string program_name() const { return states_.is(Activity::program) ? selected_.name : "MDI"; }
+  std::string program_name() const { return states_.is(Activity::program) ? selected().name : "MDI"; }
+  const idl::program::ProgramEntry& selected() const { return selection_.selected(); }
   void event(const machine::AlarmDefinition& alarm, std::string text) {
     events_.push_back({&alarm, std::move(text)});
   }
@@ -322,24 +320,21 @@ class ChannelCore {
   const bool virtual_time_;
   channel_setup::ChannelSetup machine_;
   std::shared_ptr<const machine::Parameters> parameters_, next_parameters_;
-  idl::program::ProgramList programs_;
-  idl::parameters::ToolTable tool_table_;
 
   ChannelStates states_;
   StreamWriter stream_;
   AuxiliaryHandshake handshake_;
+  TableChange table_change_;
   CycleCall cycle_call_;
   bool cycle_service_ = false;
   ManualMotion manual_;
-  std::optional<Homing> homing_;
+  Homing homing_;
   // The program's motion stays planned while the axes are moved by MDI, by hand or to the program's start.
   ChannelPath program_path_, manual_path_;
-  ProgramFlow program_flow_, mdi_flow_;
-  ProgramCache program_cache_, mdi_cache_;
-  // Of the program and of everything else, as the paths; null unless machine.yaml demands the check.
-  std::unique_ptr<collision_guard::CollisionGuard> program_guard_, manual_guard_;
-  std::string guard_error_;
-  std::optional<JogObstacle> jog_obstacle_;
+  ProgramFlow program_flow_;
+  Mdi mdi_;
+  ProgramCache program_cache_;
+  ChannelBodies bodies_;
   SkipMove skip_;
   ExactStopCheck exact_stop_;
   Tapping tapping_;
@@ -347,20 +342,16 @@ class ChannelCore {
 
   Mode mode_ = Mode::JOG;
   Switches switches_;
-  bool ready_ = false, recovered_ = false;
-  std::string external_hold_, drive_stopped_;
-  idl::plc::ChannelControl control_;
-  std::set<std::uint16_t> unreferenced_;
+  Interlock interlock_;
+  bool recovered_ = false;
   std::uint32_t reset_count_ = 0;
 
-  idl::program::ProgramEntry selected_;
-  std::string before_temporary_;         // name of the program selected before a temporary one
+  ProgramSelection selection_;
   std::optional<RestartPoint> restart_;  // of the program, until it is reached
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended
   std::uint32_t parts_ = 0;
-  LeftProgram interrupted_;  // by an emergency stop or the end of the control: its line is offered
-  Mdi mdi_;
+  LeftProgram interrupted_;     // by an emergency stop or the end of the control: its line is offered
   AxisValues machine_start_{};  // of the path at rest, in machine coordinates
   PathProgress progress_;
   std::uint32_t tool_ = 0;        // in the spindle

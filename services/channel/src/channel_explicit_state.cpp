@@ -9,52 +9,20 @@ namespace {
 constexpr const char* this_boot = "snapshot";  // common variables are kept, too
 }
 
-/// The list of fields of a channel that is idle; all others are empty then or made when something starts.
-struct ChannelFields {
-  // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_,
-  // mdi_. No fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
-  // parameters_, next_parameters_, programs_, tool_table_, cycle_service_. No field, the state of the service
-  // has it: unreferenced_. No fields, nothing is under way: states_, homing_, mdi_flow_, jog_obstacle_,
-  // skip_, exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they are made
-  // again: program_path_, manual_path_, program_cache_, mdi_cache_, program_guard_, manual_guard_,
-  // guard_error_, unusable_, state_.
-  template <class Core>
-  struct Of {
-    Core& core;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit&& visit) {
-      auto& c = self.core;
-      visit("link", c.stream_.link()), visit("handshake", c.handshake_), visit("cycle_call", c.cycle_call_),
-          visit("lock", c.lock_);
-      visit("mode", c.mode_), visit("switches", c.switches_), visit("ready", c.ready_);
-      visit("hold", c.external_hold_), visit("drive_stopped", c.drive_stopped_), visit("control", c.control_),
-          visit("reset_count", c.reset_count_), visit("selected", c.selected_);
-      visit("program_start", c.program_start_), visit("interrupted", c.interrupted_);
-      visit("modal", c.mdi_.modal), visit("position", c.machine_start_), visit("progress", c.progress_);
-      visit("tool", c.tool_), visit("spindle_programmed", c.spindle_programmed_);
-      visit("ended", c.ended_), visit("parts", c.parts_);
-      // Written where there is something: older recordings have no such state.
-      constexpr bool reads = !std::is_const_v<Core>;
-      if (reads || c.tool_since_ != 0) visit("tool_since", c.tool_since_);
-      if (reads || !c.before_temporary_.empty()) visit("before_temporary", c.before_temporary_);
-    }
-  };
-};
-
 bus::Json ChannelCore::explicit_state(std::string& why_not) const {
   if (!recovered_)
     why_not = "the channel waits for the drive";
   else if (!states_.in<Idle>())
     why_not = "the channel is " + states_.name();
-  else if (homing_)
+  else if (homing_.active())
     why_not = "the channel homes an axis";
-  else if (!link().at_rest() || !handshake_.at_rest() || !cycle_call_.at_rest() ||
+  else if (!link().at_rest() || !handshake_.at_rest() || !table_change_.at_rest() || !cycle_call_.at_rest() ||
            !manual_.offset_at_rest() || next_parameters_)
     why_not = "the channel comes to rest";
-  else if (mdi_.frames_kept)
+  else if (mdi_.frames_kept())
     why_not = "the coordinate frames of the MDI lines since the last program or reset are in no snapshot";
   if (!why_not.empty()) return nullptr;
-  auto state = snapshot::written(ChannelFields::Of<const ChannelCore>{*this});
+  auto state = snapshot::written(*this);
   state["offset_on"] = manual_.offset_on();
   state["offset"] = manual_.offset();
   state["skips"] = snapshot::written(program_flow_.skips());
@@ -64,8 +32,7 @@ bus::Json ChannelCore::explicit_state(std::string& why_not) const {
 }
 
 void ChannelCore::continue_from(const bus::Json& state) {
-  ChannelFields::Of<ChannelCore> fields{*this};
-  snapshot::read(state, fields);
+  snapshot::read(state, *this);
   AxisValues offset{};
   snapshot::read(state.at("offset"), offset);
   std::vector<program_execution::SkipResult> skips;

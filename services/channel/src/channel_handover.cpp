@@ -5,14 +5,14 @@
 namespace trunnion::channel {
 
 std::optional<HandOver> ChannelCore::hand_over() const {
-  if (homing_) return std::nullopt;
+  if (homing_.active()) return std::nullopt;
   if (states_.busy() && !states_.in<Held>() && !states_.in<Interrupted>()) return std::nullopt;
   HandOver state;
   state.mode = mode_;
-  state.program = selected_.name;
-  state.program_revision = selected_.revision;
-  state.modal = mdi_.modal;
-  state.before_temporary = before_temporary_;
+  state.program = selected().name;
+  state.program_revision = selected().revision;
+  state.modal = mdi_.modal();
+  state.before_temporary = selection_.before_temporary();
   state.tool = tool_;
   state.switches = switches_;
   state.spindle_programmed = spindle_programmed_;
@@ -22,14 +22,12 @@ std::optional<HandOver> ChannelCore::hand_over() const {
 
 void ChannelCore::take_over(const HandOver& from) {
   mode_ = from.mode;
-  mdi_.modal = from.modal;
-  before_temporary_ = from.before_temporary;
+  mdi_.set_modal(from.modal);
   tool_ = from.tool;
   switches_ = from.switches;
   spindle_programmed_ = from.spindle_programmed;
   reset_count_ = from.reset_count;
-  for (const auto& entry : programs_.programs)
-    if (entry.name == from.program) selected_ = entry;
+  selection_.take_over(from.program, from.before_temporary);
 }
 
 }  // namespace trunnion::channel

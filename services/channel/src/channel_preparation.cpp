@@ -34,7 +34,7 @@ bool ChannelCore::search_from_other_turns(const AxisValues& target) {
   Entry entry;
   entry.line = progress_.executed.line;
   configure_flow(program_flow_);
-  program_flow_.start(program_path_.trajectory(), program_cache_.open(selected_), program_start_,
+  program_flow_.start(program_path_.trajectory(), program_cache_.open(selected()), program_start_,
                       power_on_modal(), *variables_, entry);
   return true;
 }
@@ -58,7 +58,7 @@ void ChannelCore::prepare_entry() {
   if (restart_ && is_near(machine_start_, target) && preparation.moves.size() > 1)
     preparation.moves.erase(preparation.moves.begin());
   const auto error = approach_error(machine_, machine_start_, preparation.moves);
-  const auto place = selected_.name + ":" + std::to_string(line) + ": ";
+  const auto place = selected().name + ":" + std::to_string(line) + ": ";
   if (by_line && modal.tool != tool_) {
     event(alarm::search_failed, place + "needs tool T" + std::to_string(modal.tool) + ", T" +
                                     std::to_string(tool_) + " is in the spindle: change it by MDI first");
@@ -66,7 +66,7 @@ void ChannelCore::prepare_entry() {
     return;
   }
   if (!error.empty()) {
-    event(alarm::travel_limit, selected_.name + ":" + error);
+    event(alarm::travel_limit, selected().name + ":" + error);
     give_up();
     return;
   }
@@ -88,7 +88,7 @@ void ChannelCore::prepare_entry() {
 // One step of the preparation: a function, the approach, or the end of it, after which the program moves.
 // False when something has to happen before the next step.
 bool ChannelCore::run_preparation() {
-  if (!external_hold_.empty()) {
+  if (interlock_.holds()) {
     states_.pause();
     return false;
   }
@@ -121,7 +121,7 @@ void ChannelCore::end_preparation() {
   if (const auto* suspended = states_.suspended()) {
     progress_ = suspended->progress;
     progress_.reached = progress_.executed.sequence;
-    mdi_.modal = suspended->mdi_modal;
+    mdi_.set_modal(suspended->mdi_modal);
     program_path_.trajectory().retrace(false);
     states_.end_preparation();
     return;
@@ -142,9 +142,9 @@ void ChannelCore::suspend() {
   program.machine = machine_start_;
   program.tool = tool_;
   program.progress = progress_;
-  program.mdi_modal = mdi_.modal;
-  mdi_.modal = executed_modal();
-  mdi_.modal.tool = static_cast<std::uint16_t>(tool_);
+  program.mdi_modal = mdi_.modal();
+  mdi_.set_modal(executed_modal());
+  mdi_.set_tool(tool_);
   states_.suspend(program);
   manual_path_.start(machine_start_);
 }

@@ -33,7 +33,7 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
 void ChannelCore::follow_cut() {
   if (!restart_ || !states_.in<Interrupted>() || !stream_.idle()) return;
   auto own = snapshot_of(link().snapshot());
-  if (!own || !own->running || own->crc != selected_.crc32) return;
+  if (!own || !own->running || own->crc != selected().crc32) return;
   restart_ = RestartPoint{own->sequence, own->fraction, own->position};
   progress_.executed.line = own->line;
   if (own->skips.size() > program_flow_.skips().size()) program_flow_.set_skips(std::move(own->skips));
@@ -51,7 +51,7 @@ void ChannelCore::interrupt(const std::string& why) {
     const bool entering = states_.preparing() != nullptr && !restart_, reset = states_.resetting();
     if (states_.is(Activity::program) && !entering && !reset && !(was_lost && lock_.any())) {
       states_.drop_preparation();
-      if (own && own->running && own->crc == selected_.crc32)
+      if (own && own->running && own->crc == selected().crc32)
         restart_ = RestartPoint{own->sequence, own->fraction, own->position};
       else if (!was_lost)
         restart_ = RestartPoint{};
@@ -86,9 +86,8 @@ void ChannelCore::recover() {
     offer_interrupted();
     return;
   }
-  for (const auto& entry : programs_.programs)
-    if (entry.crc32 == own->crc && entry.revision == own->revision) selected_ = entry;
-  if (selected_.name.empty()) {
+  selection_.select_text(own->crc, own->revision);
+  if (selected().name.empty()) {
     stream_.link().leave();
     event(alarm::interrupted, "The interrupted program is not in the store any more");
     return;
@@ -104,7 +103,7 @@ void ChannelCore::recover() {
   interrupted_ = {};
   progress_.executed.line = own->line;
   event(alarm::interrupted,
-        "Program " + selected_.name + " was interrupted in line " + std::to_string(own->line));
+        "Program " + selected().name + " was interrupted in line " + std::to_string(own->line));
 }
 
 // After a power failure only the line is known: the operator decides whether to start from it.
@@ -112,13 +111,10 @@ void ChannelCore::offer_interrupted() {
   if (interrupted_.line == 0) return;
   const auto where = "Program " + interrupted_.name + " was in line " + std::to_string(interrupted_.line) +
                      " when the control was switched off";
-  for (const auto& entry : programs_.programs)
-    if (entry.name == interrupted_.name && entry.revision == interrupted_.revision &&
-        entry.crc32 == interrupted_.crc) {
-      selected_ = entry;
-      event(alarm::switched_off_in_program, where + ": it can be started from there");
-      return;
-    }
+  if (selection_.select(interrupted_)) {
+    event(alarm::switched_off_in_program, where + ": it can be started from there");
+    return;
+  }
   event(alarm::switched_off_in_program, where + ", and has been changed or deleted since");
   interrupted_ = {};
 }

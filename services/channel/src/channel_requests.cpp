@@ -7,7 +7,6 @@
 #include "language/codes.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/roles.hpp"
-#include "table_request.hpp"
 
 namespace trunnion::channel {
 
@@ -72,20 +71,16 @@ void ChannelCore::run_pending(FlowState state) {
 // As in ParameterRequest: what texts change is the matter of who has stored them, whoever starts or calls
 // them; what a line changes by itself, of who has entered it.
 std::uint8_t ChannelCore::role() const {
-  const bool mdi = states_.is(Activity::mdi);
-  const auto stored = (mdi ? mdi_cache_ : program_cache_).role();
-  return stored.value_or(mdi ? mdi_.role : machine::role::machine_operator);
+  if (states_.is(Activity::mdi)) return mdi_.role();
+  return program_cache_.role().value_or(machine::role::machine_operator);
 }
 
 void ChannelCore::change_table(const language::Command& command) {
-  auto request = table_request(command, number_, tool_table_);
-  request.role = role();
-  const bool mdi = states_.is(Activity::mdi);
-  request.who = mdi ? "MDI of channel " + std::to_string(number_) + " by " + mdi_.who
-                    : program_name() + " line " + std::to_string(flow().main_line()) + " of channel " +
-                          std::to_string(number_);
-  request.who.resize(std::min<std::size_t>(request.who.size(), 64));
-  handshake_.begin_table(std::move(request));
+  const auto channel = "channel " + std::to_string(number_);
+  table_change_.begin(command, role(),
+                      states_.is(Activity::mdi) ? "MDI of " + channel + " by " + mdi_.who()
+                                                : program_name() + " line " +
+                                                      std::to_string(flow().main_line()) + " of " + channel);
 }
 
 void ChannelCore::execute(const language::Command& command) {
@@ -152,7 +147,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
     return;
   }
   if (states_.preparing() != nullptr) {
-    states_.end_wait(!external_hold_.empty());
+    states_.end_wait(interlock_.holds());
     return;
   }
   const auto command = flow().pending();
@@ -169,24 +164,24 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
     return;
   }
   const bool stop = auxiliary && (command.number == program_stop || command.number == optional_stop);
-  states_.end_wait(stop || !external_hold_.empty());
+  states_.end_wait(stop || interlock_.holds());
 }
 
 // What was only tested, and a program of a command, is no part.
 void ChannelCore::count_part() {
   const bool tested = switches_.dry_run || switches_.auxiliary_lock || lock_.any();
-  if (states_.is(Activity::program) && !tested && !is_temporary(selected_.name)) ++parts_;
+  if (states_.is(Activity::program) && !tested && !is_temporary(selected().name)) ++parts_;
 }
 
 void ChannelCore::on_table_changed(const std::string& reason) {
-  if (!handshake_.finish_table()) return;
+  if (!table_change_.finish()) return;
   if (!reason.empty()) {
     event(alarm::table_refused, program_name() + ":" + std::to_string(flow().pending().line) + ": " + reason);
     stop_activity();
     return;
   }
   flow().finish_pending();
-  states_.end_wait(!external_hold_.empty());
+  states_.end_wait(interlock_.holds());
 }
 
 // The axes are at rest, and nothing is read ahead before the answer.
@@ -198,7 +193,7 @@ void ChannelCore::begin_cycle(const language::Command& command) {
   auto request = cycle_request(command, flow());
   request.program = program_name();
   // The text of the cycle is the builder's; what it is to do is said by the line that calls it.
-  request.role = states_.is(Activity::mdi) ? std::min(mdi_.role, role()) : role();
+  request.role = states_.is(Activity::mdi) ? std::min(mdi_.role_of_line(), role()) : role();
   const auto position = machine_position();
   request.machine.assign(position.begin(), position.end());
   cycle_call_.begin(std::move(request));
@@ -228,14 +223,11 @@ void ChannelCore::settle_cycle() {
     return;
   }
   const bool call = answer.outcome == CycleOutcome::CALL;
-  const auto& stored = programs_.programs;
-  if (call && std::none_of(stored.begin(), stored.end(), [&](const auto& entry) {
-        return entry.name == answer.program && entry.revision >= answer.revision;
-      }))
-    return;
+  const auto* stored = selection_.stored(answer.program);
+  if (call && (stored == nullptr || stored->revision < answer.revision)) return;
   cycle_call_.close();
   flow().cycle_answered(call ? 1 : 0);
-  states_.end_wait(!external_hold_.empty());
+  states_.end_wait(interlock_.holds());
 }
 
 }  // namespace trunnion::channel

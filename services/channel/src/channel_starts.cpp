@@ -19,21 +19,19 @@ void ChannelCore::configure_flow(ProgramFlow& flow) {
 
 Answer ChannelCore::start_program(const Entry& entry) {
   const auto& restart = entry.restart;
-  for (const auto& stored : programs_.programs)
-    if (stored.name == selected_.name) {
-      if (restart.sequence != 0 && stored.revision != selected_.revision)
-        return refuse(alarm::program_missing,
-                      "Program '" + selected_.name + "' has changed since it was interrupted: reset first");
-      selected_ = stored;
-    }
+  const auto* stored = selection_.stored(selected().name);
+  if (stored != nullptr && restart.sequence != 0 && stored->revision != selected().revision)
+    return refuse(alarm::program_missing,
+                  "Program '" + selected().name + "' has changed since it was interrupted: reset first");
+  selection_.renew();
   apply_parameters();
   adopt_position();
   skip_.end();
   finish_tapping();
-  auto& text = program_cache_.open(selected_);
+  auto& text = program_cache_.open(selected());
   if (restart.sequence == 0) program_start_ = machine_start_;
   program_path_.start(machine_start_);
-  mdi_.frames_kept = false;
+  mdi_.forget_frames();
   configure_flow(program_flow_);
   program_flow_.start(program_path_.trajectory(), text, program_start_, power_on_modal(), *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
@@ -48,11 +46,11 @@ Answer ChannelCore::start_from_line(std::uint32_t line) {
   if (mode_ != Mode::AUTO) return refuse(alarm::request_invalid, "A start from a line needs mode AUTO");
   if (!states_.in<Idle>()) return refuse(alarm::request_invalid, "The channel is busy");
   if (auto answer = startable(); !answer.accepted) return answer;
-  if (selected_.name.empty()) return refuse(alarm::program_missing, "No program is selected");
+  if (selected().name.empty()) return refuse(alarm::program_missing, "No program is selected");
   // The last line need not end with a line feed.
-  if (!(line >= 1 && line <= selected_.lines + 1))
-    return refuse(alarm::search_failed, "Program " + selected_.name + " has lines 1 to " +
-                                            std::to_string(selected_.lines) + ", not " +
+  if (!(line >= 1 && line <= selected().lines + 1))
+    return refuse(alarm::search_failed, "Program " + selected().name + " has lines 1 to " +
+                                            std::to_string(selected().lines) + ", not " +
                                             std::to_string(line));
   Entry entry;
   entry.line = line;
@@ -69,29 +67,27 @@ void ChannelCore::begin_manual(Activity activity) {
 Answer ChannelCore::start_mdi(const idl::channel::ChannelRequest& request) {
   if (mode_ != Mode::MDI) return refuse(alarm::request_invalid, "An MDI line needs mode MDI");
   if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
-  if (auto answer = may_start(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.start()) return refuse(std::move(*refusal));
   if (auto answer = startable(); !answer.accepted) return answer;
   apply_parameters();
   adopt_position();
-  mdi_.line = request.block, mdi_.who = request.who, mdi_.role = request.role;
-  mdi_.source.emplace(mdi_.line);
-  mdi_cache_.clear();
+  mdi_.enter(request);
   begin_manual(Activity::mdi);
-  auto& modal = mdi_.modal;
-  modal.tool = static_cast<std::uint16_t>(tool_);
+  mdi_.set_tool(tool_);
+  const auto& modal = mdi_.modal();
   const auto position = modal.transformation == language::Transformation::rtcp
                             ? machine_.tip_from_machine(machine_start_, modal.tool_length)
                             : machine_start_;
   manual_path_.start(position, modal.transformation, modal.tool_length);
-  configure_flow(mdi_flow_);
-  mdi_flow_.start(manual_path_.trajectory(), *mdi_.source, position, modal,
-                  states_.suspended() != nullptr ? program_flow_.variables() : *variables_, {},
-                  mdi_.frames_kept ? language::Beginning::line : language::Beginning::program);
+  auto& flow = mdi_.flow();
+  configure_flow(flow);
+  mdi_.start(manual_path_.trajectory(), position,
+             states_.suspended() != nullptr ? program_flow_.variables() : *variables_);
   // What is wrong with the line is the answer to the operator who typed it.
-  const auto state = mdi_flow_.fill(false);
+  const auto state = flow.fill(false);
   if (state == FlowState::alarm && manual_path_.trajectory().at_rest()) {
     states_.end();
-    return {false, mdi_flow_.alarm_number(), "MDI:" + mdi_flow_.alarm_text()};
+    return {false, flow.alarm_number(), "MDI:" + flow.alarm_text()};
   }
   return {};
 }

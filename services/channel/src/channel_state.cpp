@@ -17,7 +17,7 @@ std::string in_words(std::uint64_t lines) {
 }  // namespace
 
 std::string ChannelCore::detail() const {
-  if (homing_) return homing_detail();
+  if (homing_.active()) return homing_.detail(machine_.channel_axes(), switches_.feed_override > 0);
   const bool running = states_.advances(), held = states_.in<Held>();
   const auto* preparing = states_.preparing();
   const auto& executed = progress_.executed;
@@ -38,10 +38,10 @@ std::string ChannelCore::detail() const {
   if (held && states_.retracing()) return "gone back as far as the path is kept; cycle start: forwards";
   if (const auto* suspended = states_.suspended())
     return "the program is held in line " + std::to_string(suspended->progress.executed.line);
-  if (states_.in<Interrupted>() && !drive_stopped_.empty() && external_hold_.empty() &&
+  if (states_.in<Interrupted>() && interlock_.drive_stopped() && !interlock_.holds() &&
       !states_.needs_reset())
     return "the drive has stopped on the path: cycle start continues there";
-  return states_.published() == RunState::HELD ? external_hold_ : "";
+  return states_.published() == RunState::HELD ? interlock_.hold() : "";
 }
 
 // Of the block that is executed, not of those read ahead.
@@ -57,7 +57,7 @@ std::uint32_t ChannelCore::program_line() const {
 }
 
 const language::ModalState& ChannelCore::executed_modal() const {
-  if (!states_.interpreting() || !flow().started()) return mdi_.modal;
+  if (!states_.interpreting() || !flow().started()) return mdi_.modal();
   return *flow().modals().at(executed_sequence());
 }
 
@@ -68,12 +68,11 @@ language::ProgramFrame ChannelCore::executed_frame(const language::ModalState& m
   const auto* suspended = states_.suspended();
   if (states_.interpreting())
     known = flow().frames().at(executed_sequence());
-  else if (suspended != nullptr && !mdi_.frames_kept)
+  else if (suspended != nullptr && !mdi_.frames_kept())
     known = program_flow_.frames().at(suspended->progress.executed.sequence);
   if (known != nullptr) return *known;
   language::ProgramFrame frame;
-  const auto* typed = mdi_.frames_kept ? mdi_flow_.frames().newest() : nullptr;
-  if (typed != nullptr) frame = *typed;
+  if (const auto* typed = mdi_.frame()) frame = *typed;
   frame.set_work_offset(machine_.work_offset(modal.work_offset));
   frame.set_tilt(modal.tilt);
   return frame;
@@ -100,6 +99,11 @@ void ChannelCore::show_positions() {
   }
 }
 
+RunState ChannelCore::run_state() const {
+  if (!homing_.active()) return states_.published();
+  return homing_.ended() ? RunState::HOLDING : RunState::RUNNING;
+}
+
 const idl::channel::ChannelState& ChannelCore::state() {
   auto& s = state_;
   s.channel = number_;
@@ -108,10 +112,10 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.cycle = link().executed();
   s.mode = mode_;
   s.state = run_state();
-  s.program = selected_.name;
-  s.program_revision = selected_.revision;
+  s.program = selected().name;
+  s.program_revision = selected().revision;
   s.line = program_line();
-  s.lines_total = selected_.lines;
+  s.lines_total = selected().lines;
   const auto& modal = executed_modal();
   s.modal = modal_codes(modal);
   const auto drive = link().drive_mode();
@@ -141,8 +145,8 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.revision = machine_.revision();
   s.frames_ahead =
       static_cast<std::uint32_t>(link().next() > link().executed() ? link().next() - link().executed() : 0);
-  s.homed = std::none_of(s.axes.begin(), s.axes.end(),
-                         [&](std::uint16_t axis) { return unreferenced_.contains(axis); });
+  s.homed =
+      std::all_of(s.axes.begin(), s.axes.end(), [&](std::uint16_t axis) { return homing_.referenced(axis); });
   s.dry_run = switches_.dry_run;
   s.auxiliary_lock = switches_.auxiliary_lock;
   s.block_skip = switches_.block_skip;

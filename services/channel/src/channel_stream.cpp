@@ -6,14 +6,14 @@
 namespace trunnion::channel {
 
 void ChannelCore::set_hold(const std::string& why) {
-  external_hold_ = why;
+  interlock_.set_hold(why);
   if (why.empty()) return;
   if (states_.advances()) hold();
   end_homing();
 }
 
 void ChannelCore::set_drive_stopped(const std::string& why) {
-  drive_stopped_ = why;
+  interlock_.set_drive_stopped(why);
   if (!why.empty()) end_homing();
 }
 
@@ -67,10 +67,10 @@ void ChannelCore::advance() {
       continue;
     }
     if (!motion_at_rest()) {
-      if (external_hold_.empty())
-        stream_.start();
-      else
+      if (interlock_.holds())
         states_.pause();
+      else
+        stream_.start();
       return;
     }
     if (!states_.interpreting() || states_.abandoned()) {
@@ -187,8 +187,8 @@ void ChannelCore::store_state(FlowState state, idl::stream::ChannelSnapshot& out
   const auto* path = &this->path();
   auto point = progress_.point;
   ChannelSnapshot s;
-  s.crc = selected_.crc32;
-  s.revision = selected_.revision;
+  s.crc = selected().crc32;
+  s.revision = selected().revision;
   s.tool = tool_;
   s.start = program_start_;
   s.offset_on = manual_.offset_on();

@@ -11,7 +11,7 @@ using idl::channel::CommandKind;
 // They change what a program does from its first block on, so they are chosen before it: the blocks that are
 // planned already would not follow.
 Answer ChannelCore::set_switch(const ChannelRequest& request) {
-  if (!states_.in<Idle>() || homing_)
+  if (!states_.in<Idle>() || homing_.active())
     return refuse(alarm::request_invalid,
                   "Stop or reset the program first: this holds from its first block on");
   switch (request.command) {
@@ -60,7 +60,7 @@ Answer ChannelCore::set_block_skip(std::uint16_t mask) {
 Answer ChannelCore::set_handwheel_offset(bool on) {
   if (!configured() || !stream_.idle()) return refuse(alarm::request_invalid, "The channel is busy");
   if (on && lock_.any()) return refuse(alarm::request_invalid, "Unlock the axes before a handwheel offset");
-  if (on && manual_guard_ != nullptr)
+  if (on && bodies_.demanded())
     return refuse(alarm::request_invalid,
                   "The check for collisions does not know a handwheel offset: set 'collision: off' in "
                   "machine.yaml to use it");
@@ -96,7 +96,7 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
                   "The channel is busy: the handwheel waits for its motion to end or continue");
   if (!by_hand && states_.suspended() != nullptr && !turning)
     return refuse(alarm::request_invalid, "A program is held: the handwheel moves axes in mode JOG");
-  if (auto answer = may_move_by_hand(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.manual_motion()) return refuse(std::move(*refusal));
   if (auto answer = startable(); !answer.accepted) return answer;
   if (!turning && !in_motion) {
     apply_parameters();
@@ -116,9 +116,9 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
   if (distance != 0 && added == 0)
     return refuse(alarm::travel_limit,
                   "Axis " + std::string(1, language::axis_letters[axis]) +
-                      (guards_stop() ? " has no travel left for the handwheel, or a body "
-                                       "of the machine is in its way"
-                                     : " has no travel left for the handwheel"));
+                      (bodies_.stop() ? " has no travel left for the handwheel, or a body "
+                                        "of the machine is in its way"
+                                      : " has no travel left for the handwheel"));
   if (!turning && !in_motion) begin_manual(Activity::handwheel);
   return {};
 }
@@ -135,7 +135,7 @@ Answer ChannelCore::retrace(bool on) {
                        !program_flow_.searching() && !tapping_.active() && !skip_.active();
   if (!program || (!states_.in<Running>() && !states_.in<Held>()))
     return refuse(alarm::request_invalid, "Only a program that runs or is held can be retraced");
-  if (auto answer = may_start(); !answer.accepted) return answer;
+  if (auto refusal = interlock_.start()) return refuse(std::move(*refusal));
   if (auto answer = startable(); !answer.accepted) return answer;
   auto& trajectory = path().trajectory();
   trajectory.retrace(true);
