@@ -4,11 +4,13 @@
 // DriveHardware.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -135,6 +137,40 @@ class DriveCore {
   /// A test of servo loops runs whose time passes at rest.
   bool needs_time() const { return hardware_->tester() != nullptr && hardware_->tester()->needs_time(); }
 
+  /// For libs/snapshot, in the order of recordings.
+  /// No fields, configure() sets them: dt_, virtual_time_, lead_, prefill_, revision_, axes_, limits_,
+  /// spindle_axes_.
+  /// No fields, the hardware has a state of its own and gives its status: hardware_, status_.
+  /// No fields, every use sets them before: scratch_, before_.
+  /// No fields, the service has taken them: resumed_, events_.
+  /// No field, a row of a simulation is in force in its own period: moved_.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("channels", self.channels_), visit("row", self.row_), visit("rows", self.rows_);
+    visit("probe_contact", self.probe_contact_), visit("probe_watched", self.probe_watched_);
+    visit("mode", self.mode_), visit("enabled", self.enabled_), visit("control_lost", self.control_lost_);
+    visit("next", self.next_), visit("tick", self.tick_), visit("starved", self.starved_);
+    visit("command", self.command_), visit("target", self.target_), visit("velocity", self.velocity_);
+    visit("rate", self.rate_), visit("rate_step", self.rate_step_), visit("phase", self.phase_);
+    visit("dip_step", self.dip_step_), visit("dip_depth", self.dip_depth_);
+    visit("dip_periods", self.dip_periods_);
+    visit("off_path", self.off_path_), visit("reserve", self.reserve_);
+    visit("settle", self.settle_), visit("homing", self.homing_), visit("homing_axis", self.homing_axis_);
+    visit("return_from", self.return_from_), visit("return_to", self.return_to_);
+    visit("return_periods", self.return_periods_), visit("return_done", self.return_done_);
+    visit("spindles", self.spindles_), visit("orientations", self.orientations_);
+    visit("reported", self.reported_);
+    // Written where there is something: recordings of machines without gantries have no such state.
+    constexpr bool reads = !std::is_const_v<Self>;
+    if (reads || !self.homing_members_.empty()) visit("homing_members", self.homing_members_);
+    if (reads || self.homing_channel_ != 0) visit("homing_channel", self.homing_channel_);
+    if (reads || std::any_of(self.unsettled_.begin(), self.unsettled_.end(), [](auto n) { return n > 0; }))
+      visit("unsettled", self.unsettled_);
+    if (reads || self.off_periods_ != 0) visit("off_periods", self.off_periods_);
+    GantrySlaves::fields(self.slaves_, visit);
+    if (reads || self.after_alignment_ != Mode::OFF) visit("after_alignment", self.after_alignment_);
+  }
+
  private:
   struct Limits {
     double velocity, acceleration, positive, negative, following, encoder_difference;
@@ -173,8 +209,6 @@ class DriveCore {
     std::uint64_t cycles = 0;  // from next_ on, for every channel that owes one
     bool ends = false;         // nothing is owed after them
   };
-
-  friend struct DriveState;  // drive_state.cpp
 
   Supply supply() const;
   const double* row(const Channel& channel, std::uint64_t cycle) const;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "machine/gantry_pairs.hpp"
@@ -50,6 +51,13 @@ class GantrySlaves {
     const auto* slave = at(column);
     if (slave == nullptr) return value;
     return slave->off ? slave->held : value + slave->offset;
+  }
+
+  /// Written where there are some: recordings of machines without gantries have no such state.
+  /// No field, configure() sets it: by_column_.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    if (!std::is_const_v<Self> || !self.slaves_.empty()) visit("slaves", self.slaves_);
   }
 
  private:
