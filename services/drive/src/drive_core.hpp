@@ -21,6 +21,7 @@
 #include "homing.hpp"
 #include "machine/alarm_definition.hpp"
 #include "machine/axes.hpp"
+#include "probe_watch.hpp"
 #include "spindle_coupling.hpp"
 #include "spindle_orientation.hpp"
 #include "stream/frame_window.hpp"
@@ -147,7 +148,7 @@ class DriveCore {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("channels", self.channels_), visit("row", self.row_), visit("rows", self.rows_);
-    visit("probe_contact", self.probe_contact_), visit("probe_watched", self.probe_watched_);
+    ProbeWatch::fields(self.probe_, visit);
     visit("mode", self.mode_), visit("enabled", self.enabled_), visit("control_lost", self.control_lost_);
     visit("next", self.next_), visit("tick", self.tick_), visit("starved", self.starved_);
     visit("command", self.command_), visit("target", self.target_), visit("velocity", self.velocity_);
@@ -283,8 +284,7 @@ class DriveCore {
 
   Mode mode_ = Mode::OFF;
   bool enabled_ = false;
-  bool probe_contact_ = false;     // skip input 1 was on in the period before
-  bool probe_watched_ = false;     // the probe was on in it
+  ProbeWatch probe_;
   bool control_lost_ = false;      // the hardware has switched a drive off; until the alarms are reset
   std::uint32_t off_periods_ = 0;  // in which the drives did not come on although they are enabled
   std::uint64_t next_ = 0, tick_ = 0, starved_ = 0;

@@ -2,20 +2,16 @@
 // A contact of the touch probe outside a skip move.
 #include <algorithm>
 #include <cstdio>
-#include <utility>
+#include <string>
 
 #include "drive_core.hpp"
 #include "machine/alarm_constants.hpp"
 
 namespace trunnion::drive {
 
-// Behind the last setpoint of a skip move the contact may still come: the axes follow with their lag. A probe
-// that is switched on in contact has not made it now.
+// Behind the last setpoint of a skip move the contact may still come: the axes follow with their lag.
 void DriveCore::watch_probe() {
-  const bool contact = (status_.skip_inputs & 1u) != 0;
-  const bool made = !std::exchange(probe_contact_, contact) && contact;
-  const bool watched = std::exchange(probe_watched_, row_.probe_on);
-  if (!made || !watched || !row_.probe_on) return;
+  if (!probe_.made((status_.skip_inputs & 1u) != 0, row_.probe_on)) return;
   if (mode_ != Mode::HOMING && std::any_of(channels_.begin(), channels_.end(),
                                            [](const auto& entry) { return entry.second.skip_move; }))
     return;
