@@ -47,16 +47,13 @@ void DriveCore::align_slaves() {
     slave.offset = 0, slave.offset_known = true;
     const double d = std::abs(error);
     if (d <= on_path_distance) continue;
-    if (seconds == 0) return_from_ = return_to_ = command_;
-    return_to_[s] = command_[s] - error;
-    // The quintic of plan_return().
-    seconds =
-        std::max({seconds, dt_, 1.875 * d / std::min(limits_[s].velocity, slave.pair.alignment_rate / dt_),
-                  std::sqrt(5.774 * d / limits_[s].acceleration)});
+    if (seconds == 0) scratch_ = command_;
+    scratch_[s] = command_[s] - error;
+    const double velocity = std::min(limits_[s].velocity, slave.pair.alignment_rate / dt_);
+    seconds = std::max({seconds, dt_, quintic_seconds(d, velocity, limits_[s].acceleration)});
   }
   if (seconds == 0) return;
-  return_periods_ = static_cast<std::uint32_t>(std::ceil(seconds / dt_));
-  return_done_ = 0;
+  return_.start(command_, scratch_, seconds, dt_);
   after_alignment_ = mode_;
   mode_ = Mode::RETURNING;
 }

@@ -10,7 +10,6 @@
 // therefore asks at most twice the limit of an axis, and that only where the path uses all of the limit.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "drive_core.hpp"
 
@@ -103,34 +102,22 @@ void DriveCore::resume() {
   mode_ = Mode::FOLLOWING;
 }
 
-// A move with a quintic profile: its largest speed is 1.875 d/T, its largest acceleration 5.774 d/T^2.
 void DriveCore::plan_return(const std::vector<double>& target) {
   double seconds = dt_;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double d = std::abs(target[i] - command_[i]);
-    seconds =
-        std::max({seconds, 1.875 * d / limits_[i].velocity, std::sqrt(5.774 * d / limits_[i].acceleration)});
+    seconds = std::max(seconds, quintic_seconds(d, limits_[i].velocity, limits_[i].acceleration));
   }
-  return_from_ = command_;
-  return_to_ = target;
-  return_periods_ = static_cast<std::uint32_t>(
-      std::min<double>(std::ceil(seconds / dt_), std::numeric_limits<std::uint32_t>::max()));
-  return_done_ = 0;
+  return_.start(command_, target, seconds, dt_);
   off_path_ = false;
   after_alignment_ = Mode::OFF;
   mode_ = Mode::RETURNING;
 }
 
 void DriveCore::step_return() {
-  ++return_done_;
-  const double u = static_cast<double>(return_done_) / return_periods_;
-  const double s = u * u * u * (10 + u * (6 * u - 15));
-  for (std::size_t i = 0; i < axes_.size(); ++i)
-    command_[i] = return_from_[i] + s * (return_to_[i] - return_from_[i]);
-  if (return_done_ < return_periods_) return;
-  command_ = return_to_;
+  if (!return_.step(command_)) return;
   if (after_alignment_ != Mode::OFF) return end_alignment();
-  target_ = return_to_;
+  target_ = command_;
   mode_ = Mode::FOLLOWING;
   rate_ = phase_ == 0 && rate_ == 1 ? 1 : 0;
 }

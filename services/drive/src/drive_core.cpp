@@ -30,8 +30,8 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
     axes_ = machine::drive_axes(p);
     const std::size_t n = axes_.size();
     row_.axes.resize(n);
-    for (auto* v : {&command_, &target_, &velocity_, &scratch_, &return_from_, &return_to_})
-      v->assign(n, 0.0);
+    for (auto* v : {&command_, &target_, &velocity_, &scratch_}) v->assign(n, 0.0);
+    return_.configure(n);
     reported_.assign(n, false);
     moved_.assign(n, 0);
     unsettled_.assign(n, 0);

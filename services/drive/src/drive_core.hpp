@@ -22,6 +22,7 @@
 #include "machine/alarm_definition.hpp"
 #include "machine/axes.hpp"
 #include "probe_watch.hpp"
+#include "return_move.hpp"
 #include "spindle_coupling.hpp"
 #include "spindle_orientation.hpp"
 #include "stream/frame_window.hpp"
@@ -157,8 +158,7 @@ class DriveCore {
     visit("dip_periods", self.dip_periods_);
     visit("off_path", self.off_path_), visit("reserve", self.reserve_);
     visit("settle", self.settle_), visit("homing", self.homing_), visit("homing_axis", self.homing_axis_);
-    visit("return_from", self.return_from_), visit("return_to", self.return_to_);
-    visit("return_periods", self.return_periods_), visit("return_done", self.return_done_);
+    ReturnMove::fields(self.return_, visit);
     visit("spindles", self.spindles_), visit("orientations", self.orientations_);
     visit("reported", self.reported_);
     // Written where there is something: recordings of machines without gantries have no such state.
@@ -321,8 +321,7 @@ class DriveCore {
   std::vector<HomingMember> homing_members_;  // homing_axis_ and the slaves that move with it
   GantrySlaves slaves_;
   Mode after_alignment_ = Mode::OFF;  // while slaves are aligned: what follows
-  std::vector<double> return_from_, return_to_;
-  std::uint32_t return_periods_ = 0, return_done_ = 0;
+  ReturnMove return_;
 
   std::vector<machine::AxisInfo> spindle_axes_;
   std::vector<SpindleCoupling> spindles_;
