@@ -16,34 +16,16 @@
 namespace trunnion::drive {
 
 void DriveCore::begin_braking() {
-  rate_step_ = rate_step();
-  dip_periods_ = 0;
-  if (reserve_ == 0 && mode_ == Mode::FOLLOWING && phase_ == 0 && supply().cycles == 0) rate_ = 0;  // at rest
-  if (mode_ == Mode::RETURNING) rate_ = 0;
+  rate_.begin_braking(rate_step());
+  const bool at_rest =
+      reserve_ == 0 && mode_ == Mode::FOLLOWING && rate_.phase() == 0 && supply().cycles == 0;
+  if (at_rest || mode_ == Mode::RETURNING) rate_.hold();
   mode_ = Mode::BRAKING;
   forget_resumes();
 }
 
 // The change of rate that accelerates the fastest axis of the setpoints at hand by its limit.
 double DriveCore::rate_step() { return 1 / std::max(2.0, stop_periods(std::min(supply().cycles, lead_))); }
-
-// At full rate but between two cycles: falls back by what is too much, with a dip of the rate that changes it
-// by s in every period down to 1 - m s and back, which takes s m^2 of a cycle.
-void DriveCore::return_to_whole_cycles() {
-  if (dip_periods_ == 0) {
-    dip_depth_ = static_cast<std::uint32_t>(std::max(1.0, std::ceil(std::sqrt(phase_ / rate_step()))));
-    dip_step_ = phase_ / (static_cast<double>(dip_depth_) * dip_depth_);
-    dip_periods_ = 2 * dip_depth_ - 1;
-  }
-  --dip_periods_;
-  if (dip_periods_ == 0) {  // what is left of the phase is this period's loss, but for rounding
-    rate_ = 1, phase_ = 0;
-    advance(1);
-    return;
-  }
-  rate_ = 1 - dip_step_ * std::min(dip_periods_ + 1, 2 * dip_depth_ - 1 - dip_periods_);
-  advance(rate_);
-}
 
 // Another part of the controller has found a reason to stop: along the path, as for a missing setpoint.
 void DriveCore::stop() {
@@ -52,29 +34,29 @@ void DriveCore::stop() {
 }
 
 void DriveCore::brake() {
-  rate_ -= rate_step_;
-  if (rate_ <= 0) {
+  if (!rate_.brake()) {
     stopped();
     return;
   }
   if (supply().cycles > 0 && !off_path_) {
-    advance(rate_);
+    advance(rate_.rate());
     return;
   }
   // Out of setpoints: continue along the tangent. The path is left at its last known point.
   off_path_ = true;
-  phase_ = 0;
-  for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += rate_ * velocity_[i];
-  for (auto& spindle : spindles_) spindle.lead_on(rate_);
+  rate_.forget_phase();
+  for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += rate_.rate() * velocity_[i];
+  for (auto& spindle : spindles_) spindle.lead_on(rate_.rate());
 }
 
 void DriveCore::stopped() {
-  rate_ = 0, reserve_ = 0;
+  rate_.hold();
+  reserve_ = 0;
   if (!enabled_) {
     mode_ = Mode::OFF;
   } else {
     mode_ = any_active() ? Mode::HELD : Mode::FOLLOWING;
-    if (!any_active()) rate_ = 1, phase_ = 0;
+    if (!any_active()) rate_.run_whole();
   }
 }
 
@@ -92,13 +74,13 @@ void DriveCore::resume() {
   forget_resumes();
   resumed_ = true;
   bool away = off_path_;
-  for (std::size_t i = 0; i < axes_.size() && phase_ == 0; ++i)
+  for (std::size_t i = 0; i < axes_.size() && rate_.phase() == 0; ++i)
     away = away || std::abs(command_[i] - target_[i]) > on_path_distance;
   if (away) {
     plan_return(target_);
     return;
   }
-  rate_ = 0;
+  rate_.hold();
   mode_ = Mode::FOLLOWING;
 }
 
@@ -119,7 +101,7 @@ void DriveCore::step_return() {
   if (after_alignment_ != Mode::OFF) return end_alignment();
   target_ = command_;
   mode_ = Mode::FOLLOWING;
-  rate_ = phase_ == 0 && rate_ == 1 ? 1 : 0;
+  if (!rate_.whole()) rate_.hold();
 }
 
 }  // namespace trunnion::drive

@@ -146,7 +146,8 @@ void DriveCore::leave(Channel& channel) {
   if (mode_ == Mode::HELD || mode_ == Mode::RETURNING) mode_ = Mode::FOLLOWING;
   target_ = command_;
   std::fill(velocity_.begin(), velocity_.end(), 0.0);
-  rate_ = 1, phase_ = 0, reserve_ = 0;
+  rate_.run_whole();
+  reserve_ = 0;
   off_path_ = false;
 }
 
@@ -212,8 +213,13 @@ void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emerge
 // As soon as the drives are on: those of real hardware take their time.
 void DriveCore::switch_on() {
   if (mode_ != Mode::OFF || control_lost_ || !hardware_->enabled()) return;
-  mode_ = any_active() ? Mode::HELD : Mode::FOLLOWING;
-  rate_ = any_active() ? 0 : 1;
+  if (any_active()) {
+    mode_ = Mode::HELD;
+    rate_.hold();
+  } else {
+    mode_ = Mode::FOLLOWING;
+    rate_.run();
+  }
   align_slaves();
 }
 
@@ -306,7 +312,7 @@ bool DriveCore::pass_cycle() {
                     axes_[i].name.c_str(), velocity_[i], static_cast<unsigned long long>(next_),
                     limits_[i].velocity * dt_);
       raise(alarm::setpoint_jump, axes_[i].number, text);
-      rate_ = 0;
+      rate_.hold();
       mode_ = Mode::HELD;
       return false;
     }
@@ -334,27 +340,28 @@ bool DriveCore::pass_cycle() {
 }
 
 void DriveCore::advance(double cycles) {
-  phase_ += cycles;
-  while (phase_ >= 1) {
+  rate_.pass(cycles);
+  while (rate_.due()) {
     if (!pass_cycle()) {
-      phase_ = 0;
+      rate_.forget_phase();
       break;
     }
-    phase_ -= 1;
+    rate_.take_cycle();
   }
   if (mode_ == Mode::HELD) return;
-  if (phase_ > 0 && supply().cycles > 0) {
+  const double phase = rate_.phase();
+  if (phase > 0 && supply().cycles > 0) {
     target_of(next_, scratch_);
     for (std::size_t i = 0; i < axes_.size(); ++i)
-      command_[i] = target_[i] + phase_ * (scratch_[i] - target_[i]);
-    lead_spindles(phase_);
+      command_[i] = target_[i] + phase * (scratch_[i] - target_[i]);
+    lead_spindles(phase);
   } else {
     command_ = target_;
-    if (phase_ > 0 && mode_ == Mode::BRAKING) {  // the last setpoint at hand is passed while still moving
-      for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += phase_ * velocity_[i];
-      for (auto& spindle : spindles_) spindle.lead_on(phase_);
+    if (phase > 0 && mode_ == Mode::BRAKING) {  // the last setpoint at hand is passed while still moving
+      for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += phase * velocity_[i];
+      for (auto& spindle : spindles_) spindle.lead_on(phase);
       off_path_ = true;
-      phase_ = 0;
+      rate_.forget_phase();
     }
   }
 }
@@ -374,7 +381,7 @@ bool DriveCore::approach_needed() {
 }
 
 void DriveCore::follow() {
-  if (rate_ == 1 && phase_ == 0) {  // the ordinary case: one cycle in one period, the setpoint as it is
+  if (rate_.whole()) {
     keep_distances();
     if (approach_needed()) {
       const auto start = scratch_;
@@ -383,11 +390,8 @@ void DriveCore::follow() {
     }
     if (!pass_cycle()) return;
     command_ = target_;
-  } else if (rate_ < 1 && dip_periods_ == 0) {
-    rate_ = std::min(1.0, rate_ + rate_step());
-    advance(rate_);
   } else {
-    return_to_whole_cycles();
+    advance(rate_.next(rate_.dips() ? 0 : rate_step()));
   }
   double moving = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i)
@@ -397,7 +401,8 @@ void DriveCore::follow() {
   reserve_ = std::min<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(moving / 2)), lead_ / 2);
   if (!any_active()) {
     settle_ = virtual_time_ ? settling_periods : 0;
-    reserve_ = 0, rate_ = 1, phase_ = 0;
+    reserve_ = 0;
+    rate_.run_whole();
     std::fill(velocity_.begin(), velocity_.end(), 0.0);
   }
 }

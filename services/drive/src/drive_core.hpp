@@ -21,6 +21,7 @@
 #include "homing.hpp"
 #include "machine/alarm_definition.hpp"
 #include "machine/axes.hpp"
+#include "path_rate.hpp"
 #include "probe_watch.hpp"
 #include "return_move.hpp"
 #include "spindle_coupling.hpp"
@@ -153,9 +154,7 @@ class DriveCore {
     visit("mode", self.mode_), visit("enabled", self.enabled_), visit("control_lost", self.control_lost_);
     visit("next", self.next_), visit("tick", self.tick_), visit("starved", self.starved_);
     visit("command", self.command_), visit("target", self.target_), visit("velocity", self.velocity_);
-    visit("rate", self.rate_), visit("rate_step", self.rate_step_), visit("phase", self.phase_);
-    visit("dip_step", self.dip_step_), visit("dip_depth", self.dip_depth_);
-    visit("dip_periods", self.dip_periods_);
+    PathRate::fields(self.rate_, visit);
     visit("off_path", self.off_path_), visit("reserve", self.reserve_);
     visit("settle", self.settle_), visit("homing", self.homing_), visit("homing_axis", self.homing_axis_);
     ReturnMove::fields(self.return_, visit);
@@ -266,7 +265,6 @@ class DriveCore {
   void keep_distances();
   void stopped();
   double rate_step();
-  void return_to_whole_cycles();
   void leave(Channel& channel);
   void raise(const machine::AlarmDefinition& alarm, std::uint32_t part, std::string text);
 
@@ -293,10 +291,7 @@ class DriveCore {
   std::vector<double> velocity_;  // of the path at target_, per cycle
   std::vector<double> scratch_, before_;
 
-  // Braking and resuming: `rate_` cycles pass in one period, `phase_` is how far the next cycle has begun.
-  double rate_ = 1, rate_step_ = 0, phase_ = 0;
-  double dip_step_ = 0;
-  std::uint32_t dip_depth_ = 0, dip_periods_ = 0;
+  PathRate rate_;
   bool off_path_ = false;  // braking continued along the tangent, so the axes are not on the path
   bool resumed_ = false;
   std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits

@@ -47,7 +47,9 @@ void DriveCore::lose_control(std::string text) {
 void DriveCore::switch_off() {
   control_lost_ = true;
   off_path_ = any_active();
-  rate_ = 0, reserve_ = 0, phase_ = 0;
+  rate_.hold();
+  rate_.forget_phase();
+  reserve_ = 0;
   mode_ = Mode::OFF;
 }
 
