@@ -46,7 +46,7 @@ void DriveCore::brake() {
   off_path_ = true;
   rate_.forget_phase();
   for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += rate_.rate() * velocity_[i];
-  for (auto& spindle : spindles_) spindle.lead_on(rate_.rate());
+  spindles_.lead_on(rate_.rate());
 }
 
 void DriveCore::stopped() {

@@ -24,10 +24,10 @@ void DriveCore::couple_spindles() {
       continue;
     }
     if (channel.spindle < 0)
-      channel.spindle = machine::column_of(spindle_axes_, channel.window.peek()->spindle_axis);
+      channel.spindle = machine::column_of(spindles_.axes(), channel.window.peek()->spindle_axis);
     if (channel.spindle < 0) continue;
-    const auto spindle = static_cast<std::size_t>(channel.spindle);
-    spindles_[spindle].couple(*revolutions, status_.spindles[spindle].angle);
+    const double angle = status_.spindles[static_cast<std::size_t>(channel.spindle)].angle;
+    spindles_.coupling(channel.spindle).couple(*revolutions, angle);
   }
 }
 
@@ -35,12 +35,12 @@ void DriveCore::lead_spindles(double phase) {
   for (const auto& [number, channel] : channels_) {
     if (!channel.active || channel.spindle < 0) continue;
     if (const double* next = spindle_row(channel, next_))
-      spindles_[static_cast<std::size_t>(channel.spindle)].lead(phase, *next);
+      spindles_.coupling(channel.spindle).lead(phase, *next);
   }
 }
 
 void DriveCore::release_spindle(Channel& channel) {
-  if (channel.spindle >= 0) spindles_[static_cast<std::size_t>(channel.spindle)].release();
+  if (channel.spindle >= 0) spindles_.coupling(channel.spindle).release();
   channel.spindle = -1;
 }
 

@@ -55,13 +55,9 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
                   p.get(parameter::reference_coordinate, a)};
   }
   slaves_.configure(p, axes_.size());
-  spindle_axes_ = machine::spindles(p);
-  spindles_.resize(spindle_axes_.size());
-  row_.spindles.resize(spindle_axes_.size());
-  orientations_.resize(spindle_axes_.size());
-  for (std::size_t i = 0; i < spindle_axes_.size(); ++i)
-    orientations_[i].configure(orientation_settings(p, spindle_axes_[i].number), dt_);
-  hardware_->configure(p, axes_, spindle_axes_, dt_);
+  spindles_.configure(p, dt_);
+  row_.spindles.resize(spindles_.size());
+  hardware_->configure(p, axes_, spindles_.axes(), dt_);
   if (first)
     place_at_hardware();
   else
@@ -359,7 +355,7 @@ void DriveCore::advance(double cycles) {
     command_ = target_;
     if (phase > 0 && mode_ == Mode::BRAKING) {  // the last setpoint at hand is passed while still moving
       for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += phase * velocity_[i];
-      for (auto& spindle : spindles_) spindle.lead_on(phase);
+      spindles_.lead_on(phase);
       off_path_ = true;
       rate_.forget_phase();
     }
@@ -419,8 +415,7 @@ void DriveCore::exchange() {
     const double acceleration = row_.controlled ? (velocity - axis.velocity) / dt_ : 0;
     axis = {command_[i], velocity, acceleration};
   }
-  for (std::size_t i = 0; i < spindles_.size(); ++i)
-    row_.spindles[i] = orientations_[i].step(spindles_[i].setpoint(), status_.spindles[i], row_.controlled);
+  spindles_.step(status_.spindles, row_.controlled, row_.spindles);
   if (testing() && (mode_ == Mode::OFF || mode_ == Mode::BRAKING || mode_ == Mode::HELD))
     hardware_->tester()->end(idl::servo::TestPhase::ENDED_BY_STOP);
   hardware_->exchange(row_, status_, rows_);

@@ -24,8 +24,7 @@
 #include "path_rate.hpp"
 #include "probe_watch.hpp"
 #include "return_move.hpp"
-#include "spindle_coupling.hpp"
-#include "spindle_orientation.hpp"
+#include "spindles.hpp"
 #include "stream/frame_window.hpp"
 
 namespace trunnion::drive {
@@ -90,15 +89,10 @@ class DriveCore {
   }
   void request(const idl::stream::StreamRequest& request);
   void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);
-  void set_spindle_speed(const std::vector<double>& speed) {
-    for (std::size_t i = 0; i < spindles_.size(); ++i)
-      spindles_[i].demand_speed(i < speed.size() ? speed[i] : 0);
-  }
-
+  void set_spindle_speed(const std::vector<double>& speed) { spindles_.demand_speeds(speed); }
   /// Spindles that turn to their orientation angle and are held there; not while they are coupled.
   void set_spindle_orientation(const std::vector<std::uint8_t>& orient) {
-    for (std::size_t i = 0; i < orientations_.size(); ++i)
-      orientations_[i].demand(i < orient.size() && orient[i] != 0);
+    spindles_.demand_orientations(orient);
   }
 
   /// With the probe on, a rising edge of skip input 1 outside a skip move stops the axes and is an alarm.
@@ -141,8 +135,7 @@ class DriveCore {
   bool needs_time() const { return hardware_->tester() != nullptr && hardware_->tester()->needs_time(); }
 
   /// For libs/snapshot, in the order of recordings.
-  /// No fields, configure() sets them: dt_, virtual_time_, lead_, prefill_, revision_, axes_, limits_,
-  /// spindle_axes_.
+  /// No fields, configure() sets them: dt_, virtual_time_, lead_, prefill_, revision_, axes_, limits_.
   /// No fields, the hardware has a state of its own and gives its status: hardware_, status_.
   /// No fields, every use sets them before: scratch_, before_.
   /// No fields, the service has taken them: resumed_, events_.
@@ -158,7 +151,7 @@ class DriveCore {
     visit("off_path", self.off_path_), visit("reserve", self.reserve_);
     visit("settle", self.settle_), visit("homing", self.homing_), visit("homing_axis", self.homing_axis_);
     ReturnMove::fields(self.return_, visit);
-    visit("spindles", self.spindles_), visit("orientations", self.orientations_);
+    Spindles::fields(self.spindles_, visit);
     visit("reported", self.reported_);
     // Written where there is something: recordings of machines without gantries have no such state.
     constexpr bool reads = !std::is_const_v<Self>;
@@ -318,9 +311,7 @@ class DriveCore {
   Mode after_alignment_ = Mode::OFF;  // while slaves are aligned: what follows
   ReturnMove return_;
 
-  std::vector<machine::AxisInfo> spindle_axes_;
-  std::vector<SpindleCoupling> spindles_;
-  std::vector<SpindleOrientation> orientations_;
+  Spindles spindles_;
 
   std::vector<DriveEvent> events_;
   ExecutedRows rows_;

@@ -22,11 +22,7 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
     const auto* slave = slaves_.at(i);
     out.enabled[i] = mode_ == Mode::OFF ? 0 : slave != nullptr && slave->off ? 3 : 1;
   }
-  out.spindle_speed.resize(spindles_.size());
-  for (std::size_t i = 0; i < spindles_.size(); ++i) out.spindle_speed[i] = status_.spindles[i].speed;
-  out.spindle_oriented.resize(spindles_.size());
-  for (std::size_t i = 0; i < spindles_.size(); ++i)
-    out.spindle_oriented[i] = orientations_[i].oriented(status_.spindles[i]) ? 1 : 0;
+  spindles_.fill(status_.spindles, out);
   out.starved = starved_;
   out.skip_inputs = status_.skip_inputs;
   out.channels.resize(channels_.size());
