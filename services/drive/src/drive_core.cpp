@@ -32,28 +32,12 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
     row_.axes.resize(n);
     for (auto* v : {&command_, &target_, &velocity_, &scratch_}) v->assign(n, 0.0);
     return_.configure(n);
-    reported_.assign(n, false);
-    moved_.assign(n, 0);
-    unsettled_.assign(n, 0);
+    supervision_.configure(n);
     for (std::uint16_t c = 0; c < 10; ++c)
       if (!machine::channel_axes(p, c).number.empty()) channels_[c];
   }
   limits_.resize(axes_.size());
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const auto a = axes_[i].number;
-    const auto travel = machine::travel_of(p, a);
-    limits_[i] = {std::max(p.get(parameter::rapid_feed, a), p.get(parameter::maximum_feed, a)) / 60,
-                  p.get(parameter::maximum_acceleration, a),
-                  travel.positive,
-                  travel.negative,
-                  p.get(parameter::following_error_limit, a),
-                  p.get(parameter::encoder_difference_limit, a),
-                  p.integer(parameter::homing_direction, a),
-                  p.integer(parameter::homing_marks, a),
-                  p.get(parameter::reference_feed, a) / 60,
-                  p.get(parameter::homing_creep_feed, a) / 60,
-                  p.get(parameter::reference_coordinate, a)};
-  }
+  for (std::size_t i = 0; i < axes_.size(); ++i) limits_[i] = axis_limits(p, axes_[i].number);
   slaves_.configure(p, axes_.size());
   spindles_.configure(p, dt_);
   row_.spindles.resize(spindles_.size());

@@ -4,7 +4,6 @@
 // DriveHardware.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -14,12 +13,14 @@
 #include <utility>
 #include <vector>
 
+#include "axis_limits.hpp"
+#include "axis_supervision.hpp"
 #include "contracts/types.hpp"
+#include "drive_event.hpp"
 #include "drive_hardware.hpp"
 #include "executed_rows.hpp"
 #include "gantry_slaves.hpp"
 #include "homing.hpp"
-#include "machine/alarm_definition.hpp"
 #include "machine/axes.hpp"
 #include "path_rate.hpp"
 #include "probe_watch.hpp"
@@ -33,9 +34,6 @@ using Mode = idl::stream::DriveMode;
 
 /// mm or deg: axes nearer than this to a point of the path need not be moved there.
 inline constexpr double on_path_distance = 1e-6;
-
-/// Periods after a motion in virtual time, until the servos are at rest.
-inline constexpr std::uint32_t settling_periods = 250;
 
 /// What must survive the process: where the axes are and which cycle is next.
 struct Memory {
@@ -52,13 +50,6 @@ struct Memory {
   std::array<Channel, 32> channels{};
   std::array<std::uint8_t, 32> homed{};    ///< the position has its reference
   std::array<std::uint16_t, 32> number{};  ///< logical number of each axis
-};
-
-/// Something to report: the service turns it into an alarm.
-struct DriveEvent {
-  const machine::AlarmDefinition* alarm = nullptr;
-  std::uint32_t part = 0;
-  std::string text;
 };
 
 class DriveCore {
@@ -134,12 +125,11 @@ class DriveCore {
   /// A test of servo loops runs whose time passes at rest.
   bool needs_time() const { return hardware_->tester() != nullptr && hardware_->tester()->needs_time(); }
 
-  /// For libs/snapshot, in the order of recordings.
+  /// For libs/snapshot.
   /// No fields, configure() sets them: dt_, virtual_time_, lead_, prefill_, revision_, axes_, limits_.
   /// No fields, the hardware has a state of its own and gives its status: hardware_, status_.
   /// No fields, every use sets them before: scratch_, before_.
   /// No fields, the service has taken them: resumed_, events_.
-  /// No field, a row of a simulation is in force in its own period: moved_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("channels", self.channels_), visit("row", self.row_), visit("rows", self.rows_);
@@ -152,25 +142,17 @@ class DriveCore {
     visit("settle", self.settle_), visit("homing", self.homing_), visit("homing_axis", self.homing_axis_);
     ReturnMove::fields(self.return_, visit);
     Spindles::fields(self.spindles_, visit);
-    visit("reported", self.reported_);
+    AxisSupervision::fields(self.supervision_, visit);
     // Written where there is something: recordings of machines without gantries have no such state.
     constexpr bool reads = !std::is_const_v<Self>;
     if (reads || !self.homing_members_.empty()) visit("homing_members", self.homing_members_);
     if (reads || self.homing_channel_ != 0) visit("homing_channel", self.homing_channel_);
-    if (reads || std::any_of(self.unsettled_.begin(), self.unsettled_.end(), [](auto n) { return n > 0; }))
-      visit("unsettled", self.unsettled_);
     if (reads || self.off_periods_ != 0) visit("off_periods", self.off_periods_);
     GantrySlaves::fields(self.slaves_, visit);
     if (reads || self.after_alignment_ != Mode::OFF) visit("after_alignment", self.after_alignment_);
   }
 
  private:
-  struct Limits {
-    double velocity, acceleration, positive, negative, following, encoder_difference;
-    int homing_direction;  // 0: none is needed
-    int homing_marks;      // 10a922
-    double homing_search, homing_creep, reference;
-  };
   struct Channel {
     stream::FrameWindow<idl::stream::AxisFrame> window;
     bool active = false;
@@ -243,9 +225,6 @@ class DriveCore {
   void switch_off();
   void stop_at_newest_row(std::uint64_t starved);
   void supervise();
-  bool does_not_follow(std::size_t column);
-  void switch_off_for(std::size_t column);
-  std::optional<double> beyond_travel(std::size_t column) const;
   bool testing() const { return hardware_->tester() != nullptr && hardware_->tester()->running(); }
   void watch_probe();
   double compensated_offset(const GantrySlave& slave) const;
@@ -267,7 +246,7 @@ class DriveCore {
   std::uint64_t prefill_ = 23;  // cycles at hand to begin with
   std::uint64_t revision_ = 0;
   std::vector<machine::AxisInfo> axes_;
-  std::vector<Limits> limits_;
+  std::vector<AxisLimits> limits_;
   std::unique_ptr<DriveHardware> hardware_;
   SetpointRow row_;
   DriveStatus status_;
@@ -315,10 +294,7 @@ class DriveCore {
 
   std::vector<DriveEvent> events_;
   ExecutedRows rows_;
-  std::vector<bool> reported_;  // per axis: supervision has fired since the last acknowledge
-  // Of each axis: number of the newest row that moves it, and periods at rest with too large an error.
-  std::vector<std::uint64_t> moved_;
-  std::vector<std::uint32_t> unsettled_;
+  AxisSupervision supervision_;
 };
 
 }  // namespace trunnion::drive
