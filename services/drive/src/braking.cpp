@@ -52,7 +52,7 @@ void DriveCore::brake() {
 void DriveCore::stopped() {
   rate_.hold();
   reserve_ = 0;
-  if (!enabled_) {
+  if (!enable_.demanded()) {
     mode_ = Mode::OFF;
   } else {
     mode_ = any_active() ? Mode::HELD : Mode::FOLLOWING;

@@ -177,9 +177,9 @@ void DriveCore::start(Channel& channel, const idl::stream::StreamRequest& reques
 void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop) {
   bool all = !axes_.empty();
   for (const auto& axis : axes_) all = all && axis.number < enable.size() && (enable[axis.number] & 1) != 0;
-  enabled_ = all && !emergency_stop;
+  enable_.demand(all && !emergency_stop);
   demand_slaves_off(enable);
-  if (enabled_) {
+  if (enable_.demanded()) {
     switch_on();
   } else if (mode_ == Mode::HELD || (mode_ == Mode::FOLLOWING && !any_active())) {
     mode_ = Mode::OFF;
@@ -192,7 +192,7 @@ void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emerge
 
 // As soon as the drives are on: those of real hardware take their time.
 void DriveCore::switch_on() {
-  if (mode_ != Mode::OFF || control_lost_ || !hardware_->enabled()) return;
+  if (mode_ != Mode::OFF || enable_.lost() || !hardware_->enabled()) return;
   if (any_active()) {
     mode_ = Mode::HELD;
     rate_.hold();
@@ -223,7 +223,7 @@ void DriveCore::stop_at_newest_row(std::uint64_t starved) {
 void DriveCore::step() {
   ++tick_;
   if (const auto starved = hardware_->read(status_, rows_); starved > 0) stop_at_newest_row(starved);
-  if (mode_ == Mode::OFF && enabled_)
+  if (mode_ == Mode::OFF && enable_.demanded())
     switch_on();
   else if (mode_ != Mode::OFF && !hardware_->enabled())
     lose_control("The hardware has switched the drives off");
@@ -392,7 +392,7 @@ void DriveCore::exchange() {
   ++row_.number;
   row_.controlled = mode_ != Mode::OFF;
   row_.moving = mode_ == Mode::FOLLOWING && any_active();
-  row_.enable = row_.controlled || (enabled_ && !control_lost_);
+  row_.enable = row_.controlled || enable_.granted();
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     auto& axis = row_.axes[i];
     const double velocity = row_.controlled ? (command_[i] - axis.position) / dt_ : 0;

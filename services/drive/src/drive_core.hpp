@@ -16,6 +16,7 @@
 #include "axis_limits.hpp"
 #include "axis_supervision.hpp"
 #include "contracts/types.hpp"
+#include "drive_enable.hpp"
 #include "drive_event.hpp"
 #include "drive_hardware.hpp"
 #include "executed_rows.hpp"
@@ -134,7 +135,8 @@ class DriveCore {
   static void fields(Self& self, Visit&& visit) {
     visit("channels", self.channels_), visit("row", self.row_), visit("rows", self.rows_);
     ProbeWatch::fields(self.probe_, visit);
-    visit("mode", self.mode_), visit("enabled", self.enabled_), visit("control_lost", self.control_lost_);
+    visit("mode", self.mode_);
+    DriveEnable::fields(self.enable_, visit);
     visit("next", self.next_), visit("tick", self.tick_), visit("starved", self.starved_);
     visit("command", self.command_), visit("target", self.target_), visit("velocity", self.velocity_);
     PathRate::fields(self.rate_, visit);
@@ -147,7 +149,6 @@ class DriveCore {
     constexpr bool reads = !std::is_const_v<Self>;
     if (reads || !self.homing_members_.empty()) visit("homing_members", self.homing_members_);
     if (reads || self.homing_channel_ != 0) visit("homing_channel", self.homing_channel_);
-    if (reads || self.off_periods_ != 0) visit("off_periods", self.off_periods_);
     GantrySlaves::fields(self.slaves_, visit);
     if (reads || self.after_alignment_ != Mode::OFF) visit("after_alignment", self.after_alignment_);
   }
@@ -253,10 +254,8 @@ class DriveCore {
   std::map<std::uint16_t, Channel> channels_;
 
   Mode mode_ = Mode::OFF;
-  bool enabled_ = false;
+  DriveEnable enable_;
   ProbeWatch probe_;
-  bool control_lost_ = false;      // the hardware has switched a drive off; until the alarms are reset
-  std::uint32_t off_periods_ = 0;  // in which the drives did not come on although they are enabled
   std::uint64_t next_ = 0, tick_ = 0, starved_ = 0;
   std::vector<double> command_;   // setpoint of this period
   std::vector<double> target_;    // setpoint of cycle next_ - 1: a point of the path

@@ -149,12 +149,12 @@ void DriveCore::step_homing() {
       else if (!axis.homed)
         reference(member.column, l.reference - command_[member.column]);
     }
-  } else if (enabled_) {
+  } else if (enable_.demanded()) {
     report_homing_failure();
   }
   homing_members_.clear();
   target_ = command_;
-  mode_ = enabled_ ? Mode::FOLLOWING : Mode::OFF;
+  mode_ = enable_.demanded() ? Mode::FOLLOWING : Mode::OFF;
 }
 
 // Whoever has ended the search knows it.

@@ -11,9 +11,7 @@ namespace trunnion::drive {
 
 // An emergency stop chain that is open shows itself by nothing else: its alarm can be reset all the same.
 void DriveCore::await_drives() {
-  const bool waits = mode_ == Mode::OFF && enabled_ && !control_lost_;
-  off_periods_ = waits ? off_periods_ + 1 : 0;
-  if (off_periods_ * dt_ <= drives_on_timeout) return;
+  if (!enable_.is_late(mode_ == Mode::OFF, dt_)) return;
   char text[80];
   std::snprintf(text, sizeof text, "The drives are not on %g s after their enable", drives_on_timeout);
   lose_control(text);
@@ -40,7 +38,7 @@ void DriveCore::lose_control(std::string text) {
 }
 
 void DriveCore::switch_off() {
-  control_lost_ = true;
+  enable_.lose();
   off_path_ = any_active();
   rate_.hold();
   rate_.forget_phase();
@@ -67,8 +65,7 @@ void DriveCore::supervise() {
 
 void DriveCore::acknowledge() {
   supervision_.acknowledge();
-  control_lost_ = false;
-  off_periods_ = 0;
+  enable_.acknowledge();
   hardware_->reset_faults();
 }
 
