@@ -21,7 +21,7 @@
 #include "drive_hardware.hpp"
 #include "executed_rows.hpp"
 #include "gantry_slaves.hpp"
-#include "homing.hpp"
+#include "homing_search.hpp"
 #include "machine/axes.hpp"
 #include "path_rate.hpp"
 #include "probe_watch.hpp"
@@ -141,16 +141,14 @@ class DriveCore {
     visit("command", self.command_), visit("target", self.target_), visit("velocity", self.velocity_);
     PathRate::fields(self.rate_, visit);
     visit("off_path", self.off_path_), visit("reserve", self.reserve_);
-    visit("settle", self.settle_), visit("homing", self.homing_), visit("homing_axis", self.homing_axis_);
+    visit("settle", self.settle_);
+    HomingSearch::fields(self.search_, visit);
     ReturnMove::fields(self.return_, visit);
     Spindles::fields(self.spindles_, visit);
     AxisSupervision::fields(self.supervision_, visit);
-    // Written where there is something: recordings of machines without gantries have no such state.
-    constexpr bool reads = !std::is_const_v<Self>;
-    if (reads || !self.homing_members_.empty()) visit("homing_members", self.homing_members_);
-    if (reads || self.homing_channel_ != 0) visit("homing_channel", self.homing_channel_);
     GantrySlaves::fields(self.slaves_, visit);
-    if (reads || self.after_alignment_ != Mode::OFF) visit("after_alignment", self.after_alignment_);
+    if (!std::is_const_v<Self> || self.after_alignment_ != Mode::OFF)
+      visit("after_alignment", self.after_alignment_);
   }
 
  private:
@@ -196,12 +194,8 @@ class DriveCore {
   bool all_homed();
   void home(std::uint16_t channel, std::uint16_t axis);
   void reference(std::size_t column, double shift);
+  void reference_members();
   void step_homing();
-  bool begin_homing(std::size_t column);
-  double homing_travel(std::size_t column) const;
-  void report_homing_failure();
-  Homing::Signals homing_signals();
-  void abort_homing();
   void follow_supply();
   void begin_braking();
   bool pass_cycle();
@@ -267,24 +261,7 @@ class DriveCore {
   bool resumed_ = false;
   std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits
   std::uint32_t settle_ = 0;   // periods until the servos are at rest, in virtual time
-  Homing homing_;
-  std::size_t homing_axis_ = 0;       // column
-  std::uint16_t homing_channel_ = 0;  // that has demanded it
-  struct HomingMember {
-    std::size_t column = 0;
-    double sign = 1, from = 0;  // of its motion in that of homing_axis_; position at the start
-    bool edge_taken = false, mark_taken = false;
-    double latch = 0;
-    std::uint64_t marks = 0;  // when its edge was taken
-
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit&& visit) {
-      visit("column", self.column), visit("sign", self.sign), visit("from", self.from);
-      visit("edge_taken", self.edge_taken), visit("mark_taken", self.mark_taken);
-      visit("latch", self.latch), visit("marks", self.marks);
-    }
-  };
-  std::vector<HomingMember> homing_members_;  // homing_axis_ and the slaves that move with it
+  HomingSearch search_;
   GantrySlaves slaves_;
   Mode after_alignment_ = Mode::OFF;  // while slaves are aligned: what follows
   ReturnMove return_;
