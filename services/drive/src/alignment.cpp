@@ -19,9 +19,9 @@ constexpr std::uint8_t off_bit = 2;  // of Outputs::axis_enable
 // mm: how far compensation puts the slave from where its master's setpoint says. It is known once the channel
 // has moved.
 double DriveCore::compensated_offset(const GantrySlave& slave) const {
-  const auto channel = channels_.find(slave.channel);
-  if (channel == channels_.end()) return 0;
-  const auto* state = stream::find_state(channel->second.states, idl::stream::Stage::GANTRY);
+  const auto* channel = streams_.find(slave.channel);
+  if (channel == nullptr) return 0;
+  const auto* state = stream::find_state(channel->states, idl::stream::Stage::GANTRY);
   return state != nullptr ? stream::compensated_offsets(slave.places, state->values)[slave.place] : 0;
 }
 
@@ -119,10 +119,10 @@ void DriveCore::couple_slaves() {
 void DriveCore::keep_distances() {
   for (auto& slave : slaves_.all()) {
     if (slave.offset_known || slave.off) continue;
-    const auto& channel = channels_[slave.channel];
-    if (!channel.active || channel.start != next_) continue;
-    const double* values = row(channel, next_);
-    const auto* frame = channel.window.peek();
+    const auto* channel = streams_.find(slave.channel);
+    if (channel == nullptr || !channel->active || channel->start != next_) continue;
+    const double* values = channel->row(next_);
+    const auto* frame = channel->window.peek();
     if (values == nullptr || frame == nullptr) continue;
     const auto value = [&](std::uint16_t axis) {
       const auto found = std::find(frame->axes.begin(), frame->axes.end(), axis);

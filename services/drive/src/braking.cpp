@@ -21,7 +21,7 @@ void DriveCore::begin_braking() {
       reserve_ == 0 && mode_ == Mode::FOLLOWING && rate_.phase() == 0 && supply().cycles == 0;
   if (at_rest || mode_ == Mode::RETURNING) rate_.hold();
   mode_ = Mode::BRAKING;
-  forget_resumes();
+  streams_.forget_resumes();
 }
 
 // The change of rate that accelerates the fastest axis of the setpoints at hand by its limit.
@@ -60,18 +60,8 @@ void DriveCore::stopped() {
   }
 }
 
-// The start of one channel moves no axis of another: who stands there has a key of his own.
-bool DriveCore::resume_demanded() const {
-  return any_active() && std::all_of(channels_.begin(), channels_.end(),
-                                     [](const auto& c) { return c.second.resume || !c.second.active; });
-}
-
-void DriveCore::forget_resumes() {
-  for (auto& [number, channel] : channels_) channel.resume = false;
-}
-
 void DriveCore::resume() {
-  forget_resumes();
+  streams_.forget_resumes();
   resumed_ = true;
   bool away = off_path_;
   for (std::size_t i = 0; i < axes_.size() && rate_.phase() == 0; ++i)

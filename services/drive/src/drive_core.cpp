@@ -12,10 +12,6 @@
 namespace trunnion::drive {
 
 using idl::stream::StreamRequestKind;
-namespace {
-// Of a channel that the drive has forgotten. After the last of all epochs there would be none.
-constexpr std::uint32_t most_epochs = 1u << 24;
-}  // namespace
 
 void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   const bool first = axes_.empty();
@@ -34,7 +30,7 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
     return_.configure(n);
     supervision_.configure(n);
     for (std::uint16_t c = 0; c < 10; ++c)
-      if (!machine::channel_axes(p, c).number.empty()) channels_[c];
+      if (!machine::channel_axes(p, c).number.empty()) streams_.add(c);
   }
   limits_.resize(axes_.size());
   for (std::size_t i = 0; i < axes_.size(); ++i) limits_[i] = axis_limits(p, axes_[i].number);
@@ -61,12 +57,7 @@ void DriveCore::restore(const Memory& memory) {
   if (memory.magic != Memory::magic_value) return;
   next_ = memory.next;
   tick_ = memory.tick;
-  for (auto& [number, channel] : channels_) {
-    const auto& kept = memory.channels[number % memory.channels.size()];
-    channel.begun = kept.begun != 0;
-    channel.epoch = channel.begun ? kept.epoch : memory.epoch;
-    channel.request = kept.request;
-  }
+  streams_.restore(memory);
   std::vector<double> positions = command_;  // of axes that are not in the memory: where they are
   std::vector<std::uint8_t> homed(axes_.size(), 0);
   for (std::size_t i = 0; i < axes_.size(); ++i)
@@ -95,10 +86,7 @@ Memory DriveCore::memory() const {
   memory.axes = static_cast<std::uint32_t>(axes_.size());
   memory.next = next_;
   memory.tick = tick_;
-  for (const auto& [number, channel] : channels_) {
-    memory.epoch = std::max(memory.epoch, channel.epoch);
-    memory.channels[number % memory.channels.size()] = {channel.epoch, channel.request, channel.begun};
-  }
+  streams_.keep(memory);
   for (std::size_t i = 0; i < std::min(axes_.size(), memory.position.size()); ++i) {
     memory.position[i] = status_.axes[i].position;
     memory.homed[i] = status_.axes[i].homed ? 1 : 0;
@@ -107,18 +95,9 @@ Memory DriveCore::memory() const {
   return memory;
 }
 
-bool DriveCore::put(idl::stream::AxisFrame& frame) {
-  const auto channel = channels_.find(frame.channel);
-  return channel == channels_.end() || channel->second.window.put(frame) != stream::Arrival::differs;
-}
-
-bool DriveCore::any_active() const {
-  return std::any_of(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
-}
-
-void DriveCore::leave(Channel& channel) {
+void DriveCore::leave(ChannelStream& channel) {
   channel.active = channel.ending = channel.resume = false;
-  release_spindle(channel);
+  channel.release_spindle(spindles_);
   // The others go on from between two cycles: its axes stay where they are.
   for (const int column : channel.columns)
     if (column >= 0) target_[static_cast<std::size_t>(column)] = command_[static_cast<std::size_t>(column)];
@@ -132,9 +111,9 @@ void DriveCore::leave(Channel& channel) {
 }
 
 void DriveCore::request(const idl::stream::StreamRequest& request) {
-  const auto found = channels_.find(request.channel);
-  if (found == channels_.end()) return;
-  auto& channel = found->second;
+  auto* const found = streams_.find(request.channel);
+  if (found == nullptr) return;
+  auto& channel = *found;
   if (request.request == channel.request && request.epoch == channel.epoch) return;
   channel.request = request.request;
   switch (request.kind) {
@@ -155,22 +134,16 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
   }
 }
 
-void DriveCore::start(Channel& channel, const idl::stream::StreamRequest& request) {
+void DriveCore::start(ChannelStream& channel, const idl::stream::StreamRequest& request) {
   leave(channel);
   couple_slaves();
-  // A start within an epoch whose start this process did not see is a message from before it was restarted.
-  const bool new_epoch = request.kind == StreamRequestKind::NEW_EPOCH;
-  const bool known = new_epoch ? request.epoch > channel.epoch && request.epoch - channel.epoch <= most_epochs
-                               : channel.begun && request.epoch == channel.epoch;
-  if (!known) return;
+  if (!channel.expects(request)) return;
   channel.epoch = request.epoch;
   channel.begun = true;
   channel.active =
       mode_ != Mode::OFF && mode_ != Mode::BRAKING && mode_ != Mode::HOMING && all_homed() && all_aligned();
   channel.prefilled = false;
-  const auto active =
-      std::count_if(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
-  channel.start = next_ + (active > 1 ? lead_ : 0);
+  channel.start = next_ + (streams_.active() > 1 ? lead_ : 0);
   channel.window.set_next(channel.epoch, channel.start);
 }
 
@@ -232,7 +205,7 @@ void DriveCore::step() {
     case Mode::OFF:
       break;
     case Mode::HELD:
-      if (resume_demanded() && prefilled(supply())) resume();
+      if (streams_.resume_demanded() && prefilled(supply())) resume();
       break;
     case Mode::RETURNING:
       step_return();
@@ -255,13 +228,8 @@ void DriveCore::step() {
 
 void DriveCore::follow_supply() {
   const auto s = supply();
-  bool begun = reserve_ > 0;
-  for (auto& [number, channel] : channels_) {
-    if (channel.active && !channel.prefilled && channel.start <= next_)
-      channel.prefilled = virtual_time_ || prefilled(s);
-    begun = begun || (channel.active && channel.prefilled);
-  }
-  if (!begun) return;
+  const bool begun = streams_.let_begin(next_, virtual_time_ || prefilled(s));
+  if (!begun && reserve_ == 0) return;
   if (enough(s)) {
     follow();
     return;
@@ -299,22 +267,8 @@ bool DriveCore::pass_cycle() {
   }
   target_ = scratch_;
   rows_.handed_over(next_, row_.number + 1, target_);
-  couple_spindles();
-  for (auto& [number, channel] : channels_) {
-    if (!channel.active) continue;
-    const auto* frame = channel.window.peek();
-    if (frame == nullptr) continue;
-    channel.skip_move = frame->skip_move;
-    if (next_ + 1 != frame->first + frame->count) continue;
-    channel.snapshot = frame->snapshot;
-    channel.states = frame->states;
-    const bool ends = frame->ends;
-    channel.window.advance();
-    if (!ends) continue;
-    channel.active = false;
-    channel.ending = true;
-    release_spindle(channel);
-  }
+  streams_.couple_spindles(next_, status_.spindles, spindles_);
+  streams_.pass(next_, spindles_);
   ++next_;
   return true;
 }
@@ -334,7 +288,7 @@ void DriveCore::advance(double cycles) {
     target_of(next_, scratch_);
     for (std::size_t i = 0; i < axes_.size(); ++i)
       command_[i] = target_[i] + phase * (scratch_[i] - target_[i]);
-    lead_spindles(phase);
+    streams_.lead_spindles(next_, phase, spindles_);
   } else {
     command_ = target_;
     if (phase > 0 && mode_ == Mode::BRAKING) {  // the last setpoint at hand is passed while still moving
@@ -349,11 +303,7 @@ void DriveCore::advance(double cycles) {
 // The channel that starts alone may begin away from where its axes are: they are moved there first. When
 // others move, its first setpoint is a setpoint like any other, and must not jump.
 bool DriveCore::approach_needed() {
-  const auto active =
-      std::count_if(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
-  const bool starts = std::any_of(channels_.begin(), channels_.end(),
-                                  [&](const auto& c) { return c.second.active && c.second.start == next_; });
-  if (!starts || active != 1) return false;
+  if (!streams_.any_starts(next_) || streams_.active() != 1) return false;
   target_of(next_, scratch_);
   for (std::size_t i = 0; i < axes_.size(); ++i)
     if (std::abs(scratch_[i] - command_[i]) > on_path_distance) return true;
@@ -410,8 +360,7 @@ void DriveCore::exchange() {
     for (std::size_t i = 0; i < axes_.size(); ++i)
       command_[i] = row_.axes[i].position = status_.axes[i].hold_position;
   }
-  if (rows_.pending() > 0) return;
-  for (auto& [number, channel] : channels_) channel.ending = false;
+  if (rows_.pending() == 0) streams_.executed();
 }
 
 void DriveCore::raise(const machine::AlarmDefinition& alarm, std::uint32_t part, std::string text) {

@@ -4,10 +4,7 @@
 // DriveHardware.
 #pragma once
 
-#include <array>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -15,10 +12,12 @@
 
 #include "axis_limits.hpp"
 #include "axis_supervision.hpp"
+#include "channel_streams.hpp"
 #include "contracts/types.hpp"
 #include "drive_enable.hpp"
 #include "drive_event.hpp"
 #include "drive_hardware.hpp"
+#include "drive_memory.hpp"
 #include "executed_rows.hpp"
 #include "gantry_slaves.hpp"
 #include "homing_search.hpp"
@@ -27,7 +26,6 @@
 #include "probe_watch.hpp"
 #include "return_move.hpp"
 #include "spindles.hpp"
-#include "stream/frame_window.hpp"
 
 namespace trunnion::drive {
 
@@ -35,23 +33,6 @@ using Mode = idl::stream::DriveMode;
 
 /// mm or deg: axes nearer than this to a point of the path need not be moved there.
 inline constexpr double on_path_distance = 1e-6;
-
-/// What must survive the process: where the axes are and which cycle is next.
-struct Memory {
-  static constexpr std::uint32_t magic_value = 0x54524e31;
-  struct Channel {
-    std::uint32_t epoch = 0, request = 0;
-    std::uint32_t begun = 0;  ///< the start of the epoch was seen: a start within it is no old message
-  };
-  std::uint32_t magic = 0;
-  std::uint32_t axes = 0;
-  std::uint32_t epoch = 0;  ///< newest of any channel
-  std::uint64_t next = 0, tick = 0;
-  std::array<double, 32> position{};
-  std::array<Channel, 32> channels{};
-  std::array<std::uint8_t, 32> homed{};    ///< the position has its reference
-  std::array<std::uint16_t, 32> number{};  ///< logical number of each axis
-};
 
 class DriveCore {
  public:
@@ -74,10 +55,11 @@ class DriveCore {
   void continue_from(const bus::Json& state);
 
   /// A frame of the gantry stage; swapped away. False when a replica differs from what is here.
-  bool put(idl::stream::AxisFrame& frame);
+  bool put(idl::stream::AxisFrame& frame) { return streams_.put(frame); }
   /// What is here of the same channel, epoch and first cycle; null when nothing is.
   const idl::stream::AxisFrame* first_arrival(const idl::stream::AxisFrame& frame) {
-    return channels_[frame.channel].window.first_arrival(frame);
+    const auto* channel = streams_.find(frame.channel);
+    return channel == nullptr ? nullptr : channel->window.first_arrival(frame);
   }
   void request(const idl::stream::StreamRequest& request);
   void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);
@@ -115,7 +97,7 @@ class DriveCore {
   std::uint64_t next() const { return next_; }
   std::uint64_t tick() const { return tick_; }
   std::uint64_t starved() const { return starved_; }
-  bool any_active() const;
+  bool any_active() const { return streams_.any_active(); }
   /// A channel owes setpoints that are not here while the axes move or must begin.
   bool waiting() const;
   double period() const { return dt_; }
@@ -133,7 +115,8 @@ class DriveCore {
   /// No fields, the service has taken them: resumed_, events_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("channels", self.channels_), visit("row", self.row_), visit("rows", self.rows_);
+    ChannelStreams::fields(self.streams_, visit);
+    visit("row", self.row_), visit("rows", self.rows_);
     ProbeWatch::fields(self.probe_, visit);
     visit("mode", self.mode_);
     DriveEnable::fields(self.enable_, visit);
@@ -152,45 +135,12 @@ class DriveCore {
   }
 
  private:
-  struct Channel {
-    stream::FrameWindow<idl::stream::AxisFrame> window;
-    bool active = false;
-    bool ending = false;     // its last setpoints are handed over and not all executed
-    bool prefilled = false;  // enough has arrived to begin
-    bool begun = false;      // an epoch was started in this process
-    bool resume = false;     // continues, once every channel that was stopped does
-    std::uint32_t epoch = 0, request = 0;
-    std::uint64_t start = 0;
-    idl::stream::ChannelSnapshot snapshot;
-    std::vector<idl::stream::StageState> states;
-    std::vector<std::uint16_t> axes;  // of the frames, and the column of each
-    std::vector<int> columns;
-    int spindle = -1;        // that follows the channel's frames
-    bool skip_move = false;  // of the newest frame of which a setpoint was passed
-
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit&& visit) {
-      visit("window", self.window), visit("active", self.active), visit("ending", self.ending);
-      visit("prefilled", self.prefilled), visit("begun", self.begun), visit("epoch", self.epoch);
-      visit("request", self.request), visit("start", self.start), visit("snapshot", self.snapshot);
-      visit("states", self.states), visit("axes", self.axes), visit("columns", self.columns);
-      visit("spindle", self.spindle), visit("skip_move", self.skip_move);
-      visit("resume", self.resume);
-    }
-  };
-  // How far the setpoints at hand reach.
-  struct Supply {
-    std::uint64_t cycles = 0;  // from next_ on, for every channel that owes one
-    bool ends = false;         // nothing is owed after them
-  };
-
-  Supply supply() const;
-  const double* row(const Channel& channel, std::uint64_t cycle) const;
+  StreamSupply supply() const { return streams_.supply(next_, lead_); }
   void target_of(std::uint64_t cycle, std::vector<double>& out);
   double stop_periods(std::uint64_t cycles);
-  bool enough(const Supply& supply) const;
-  bool prefilled(const Supply& supply) const;
-  void start(Channel& channel, const idl::stream::StreamRequest& request);
+  bool enough(const StreamSupply& supply) const;
+  bool prefilled(const StreamSupply& supply) const;
+  void start(ChannelStream& channel, const idl::stream::StreamRequest& request);
   bool all_homed();
   void home(std::uint16_t channel, std::uint16_t axis);
   void reference(std::size_t column, double shift);
@@ -203,15 +153,9 @@ class DriveCore {
   bool approach_needed();
   void follow();
   void brake();
-  bool resume_demanded() const;
-  void forget_resumes();
   void resume();
   void step_return();
   void plan_return(const std::vector<double>& target);
-  const double* spindle_row(const Channel& channel, std::uint64_t cycle) const;
-  void couple_spindles();
-  void lead_spindles(double phase);
-  void release_spindle(Channel& channel);
   void exchange();
   void place_at_hardware();
   void switch_on();
@@ -232,7 +176,7 @@ class DriveCore {
   void keep_distances();
   void stopped();
   double rate_step();
-  void leave(Channel& channel);
+  void leave(ChannelStream& channel);
   void raise(const machine::AlarmDefinition& alarm, std::uint32_t part, std::string text);
 
   double dt_ = 0.001;
@@ -245,7 +189,7 @@ class DriveCore {
   std::unique_ptr<DriveHardware> hardware_;
   SetpointRow row_;
   DriveStatus status_;
-  std::map<std::uint16_t, Channel> channels_;
+  ChannelStreams streams_;
 
   Mode mode_ = Mode::OFF;
   DriveEnable enable_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A contact of the touch probe outside a skip move.
-#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -12,9 +11,7 @@ namespace trunnion::drive {
 // Behind the last setpoint of a skip move the contact may still come: the axes follow with their lag.
 void DriveCore::watch_probe() {
   if (!probe_.made((status_.skip_inputs & 1u) != 0, row_.probe_on)) return;
-  if (mode_ != Mode::HOMING && std::any_of(channels_.begin(), channels_.end(),
-                                           [](const auto& entry) { return entry.second.skip_move; }))
-    return;
+  if (mode_ != Mode::HOMING && streams_.any_skips()) return;
   std::string place;
   for (std::size_t i = 0; i < axes_.size() && place.size() < 120; ++i) {
     char text[48];
