@@ -151,7 +151,8 @@ void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emerge
   bool all = !axes_.empty();
   for (const auto& axis : axes_) all = all && axis.number < enable.size() && (enable[axis.number] & 1) != 0;
   enable_.demand(all && !emergency_stop);
-  demand_slaves_off(enable);
+  slaves_.demand_off(enable);
+  couple_slaves();
   if (enable_.demanded()) {
     switch_on();
   } else if (mode_ == Mode::HELD || (mode_ == Mode::FOLLOWING && !any_active())) {
@@ -312,7 +313,7 @@ bool DriveCore::approach_needed() {
 
 void DriveCore::follow() {
   if (rate_.whole()) {
-    keep_distances();
+    slaves_.keep_distances(streams_, next_, command_);
     if (approach_needed()) {
       const auto start = scratch_;
       plan_return(start);

@@ -31,9 +31,6 @@ namespace trunnion::drive {
 
 using Mode = idl::stream::DriveMode;
 
-/// mm or deg: axes nearer than this to a point of the path need not be moved there.
-inline constexpr double on_path_distance = 1e-6;
-
 class DriveCore {
  public:
   explicit DriveCore(std::unique_ptr<DriveHardware> hardware) : hardware_(std::move(hardware)) {}
@@ -166,14 +163,11 @@ class DriveCore {
   void supervise();
   bool testing() const { return hardware_->tester() != nullptr && hardware_->tester()->running(); }
   void watch_probe();
-  double compensated_offset(const GantrySlave& slave) const;
   void align_slaves();
   void end_alignment();
   void report_misalignment(const GantrySlave& slave, double error);
   bool all_aligned();
-  void demand_slaves_off(const std::vector<std::uint8_t>& enable);
   void couple_slaves();
-  void keep_distances();
   void stopped();
   double rate_step();
   void leave(ChannelStream& channel);

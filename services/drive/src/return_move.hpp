@@ -8,6 +8,9 @@
 
 namespace trunnion::drive {
 
+/// mm or deg: axes nearer than this to a point need not be moved there.
+inline constexpr double on_path_distance = 1e-6;
+
 /// s that an axis needs for `distance`: the largest speed of the profile is 1.875 d/T, its largest
 /// acceleration 5.774 d/T^2. Velocity and acceleration are limits, in the unit of the distance.
 double quintic_seconds(double distance, double velocity, double acceleration);
