@@ -8,22 +8,8 @@
 #include "drive_core.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
-#include "stream/gantry_synchronization.hpp"
-#include "stream/stage_core.hpp"
 
 namespace trunnion::drive {
-namespace {
-constexpr std::uint8_t off_bit = 2;  // of Outputs::axis_enable
-}  // namespace
-
-// mm: how far compensation puts the slave from where its master's setpoint says. It is known once the channel
-// has moved.
-double DriveCore::compensated_offset(const GantrySlave& slave) const {
-  const auto channel = channels_.find(slave.channel);
-  if (channel == channels_.end()) return 0;
-  const auto* state = stream::find_state(channel->second.states, idl::stream::Stage::GANTRY);
-  return state != nullptr ? stream::compensated_offsets(slave.places, state->values)[slave.place] : 0;
-}
 
 // When the drives are switched on: a slave within its limit is moved to its master, others stay where they
 // are.
@@ -37,7 +23,7 @@ void DriveCore::align_slaves() {
       slave.offset_known = slave.offset_known && any_active();
       continue;
     }
-    const double error = slave.pair.error(command_[m], command_[s]) - compensated_offset(slave);
+    const double error = GantrySlaves::misalignment(slave, streams_, command_);
     if (std::abs(error) > slave.pair.alignment_limit) {
       slave.refused = true;
       report_misalignment(slave, error);
@@ -47,16 +33,13 @@ void DriveCore::align_slaves() {
     slave.offset = 0, slave.offset_known = true;
     const double d = std::abs(error);
     if (d <= on_path_distance) continue;
-    if (seconds == 0) return_from_ = return_to_ = command_;
-    return_to_[s] = command_[s] - error;
-    // The quintic of plan_return().
-    seconds =
-        std::max({seconds, dt_, 1.875 * d / std::min(limits_[s].velocity, slave.pair.alignment_rate / dt_),
-                  std::sqrt(5.774 * d / limits_[s].acceleration)});
+    if (seconds == 0) scratch_ = command_;
+    scratch_[s] = command_[s] - error;
+    const double velocity = std::min(limits_[s].velocity, slave.pair.alignment_rate / dt_);
+    seconds = std::max({seconds, dt_, quintic_seconds(d, velocity, limits_[s].acceleration)});
   }
   if (seconds == 0) return;
-  return_periods_ = static_cast<std::uint32_t>(std::ceil(seconds / dt_));
-  return_done_ = 0;
+  return_.start(command_, scratch_, seconds, dt_);
   after_alignment_ = mode_;
   mode_ = Mode::RETURNING;
 }
@@ -90,8 +73,7 @@ bool DriveCore::all_aligned() {
   bool aligned = true;
   for (auto& slave : slaves_.all()) {
     if (!slave.refused || slave.off) continue;
-    const double error = slave.pair.error(command_[slave.master_column()], command_[slave.column()]) -
-                         compensated_offset(slave);
+    const double error = GantrySlaves::misalignment(slave, streams_, command_);
     slave.refused = std::abs(error) > slave.pair.alignment_limit;
     if (!slave.refused) continue;
     report_misalignment(slave, error);
@@ -100,44 +82,10 @@ bool DriveCore::all_aligned() {
   return aligned;
 }
 
-void DriveCore::demand_slaves_off(const std::vector<std::uint8_t>& enable) {
-  for (auto& slave : slaves_.all())
-    slave.off_demanded = slave.pair.slave < enable.size() && (enable[slave.pair.slave] & off_bit) != 0;
-  couple_slaves();
-}
-
 // At rest only: a slave in motion stays with its master.
 void DriveCore::couple_slaves() {
   if (any_active() || (mode_ != Mode::FOLLOWING && mode_ != Mode::OFF)) return;
-  for (auto& slave : slaves_.all()) {
-    if (slave.off == slave.off_demanded) continue;
-    slave.off = slave.off_demanded;
-    slave.held = command_[slave.column()];
-    slave.offset_known = slave.refused = false;
-  }
-}
-
-// The first setpoint of a channel since the drives were switched on or a slave was coupled: what is between
-// the slave and its place stays. `error` of the setpoints is what compensation wants.
-void DriveCore::keep_distances() {
-  for (auto& slave : slaves_.all()) {
-    if (slave.offset_known || slave.off) continue;
-    const auto& channel = channels_[slave.channel];
-    if (!channel.active || channel.start != next_) continue;
-    const double* values = row(channel, next_);
-    const auto* frame = channel.window.peek();
-    if (values == nullptr || frame == nullptr) continue;
-    const auto value = [&](std::uint16_t axis) {
-      const auto found = std::find(frame->axes.begin(), frame->axes.end(), axis);
-      return found == frame->axes.end() ? nullptr : values + (found - frame->axes.begin());
-    };
-    const double *master = value(slave.pair.master), *own = value(slave.pair.slave);
-    if (master == nullptr || own == nullptr) continue;
-    const double distance = slave.pair.error(command_[slave.master_column()], command_[slave.column()]) -
-                            slave.pair.error(*master, *own);
-    slave.offset = std::abs(distance) > on_path_distance ? distance : 0;
-    slave.offset_known = true;
-  }
+  slaves_.couple(command_);
 }
 
 }  // namespace trunnion::drive

@@ -12,10 +12,6 @@
 namespace trunnion::drive {
 
 using idl::stream::StreamRequestKind;
-namespace {
-// Of a channel that the drive has forgotten. After the last of all epochs there would be none.
-constexpr std::uint32_t most_epochs = 1u << 24;
-}  // namespace
 
 void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   const bool first = axes_.empty();
@@ -30,38 +26,18 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
     axes_ = machine::drive_axes(p);
     const std::size_t n = axes_.size();
     row_.axes.resize(n);
-    for (auto* v : {&command_, &target_, &velocity_, &scratch_, &return_from_, &return_to_})
-      v->assign(n, 0.0);
-    reported_.assign(n, false);
-    moved_.assign(n, 0);
-    unsettled_.assign(n, 0);
+    for (auto* v : {&command_, &target_, &velocity_, &scratch_}) v->assign(n, 0.0);
+    return_.configure(n);
+    supervision_.configure(n);
     for (std::uint16_t c = 0; c < 10; ++c)
-      if (!machine::channel_axes(p, c).number.empty()) channels_[c];
+      if (!machine::channel_axes(p, c).number.empty()) streams_.add(c);
   }
   limits_.resize(axes_.size());
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const auto a = axes_[i].number;
-    const auto travel = machine::travel_of(p, a);
-    limits_[i] = {std::max(p.get(parameter::rapid_feed, a), p.get(parameter::maximum_feed, a)) / 60,
-                  p.get(parameter::maximum_acceleration, a),
-                  travel.positive,
-                  travel.negative,
-                  p.get(parameter::following_error_limit, a),
-                  p.get(parameter::encoder_difference_limit, a),
-                  p.integer(parameter::homing_direction, a),
-                  p.integer(parameter::homing_marks, a),
-                  p.get(parameter::reference_feed, a) / 60,
-                  p.get(parameter::homing_creep_feed, a) / 60,
-                  p.get(parameter::reference_coordinate, a)};
-  }
+  for (std::size_t i = 0; i < axes_.size(); ++i) limits_[i] = axis_limits(p, axes_[i].number);
   slaves_.configure(p, axes_.size());
-  spindle_axes_ = machine::spindles(p);
-  spindles_.resize(spindle_axes_.size());
-  row_.spindles.resize(spindle_axes_.size());
-  orientations_.resize(spindle_axes_.size());
-  for (std::size_t i = 0; i < spindle_axes_.size(); ++i)
-    orientations_[i].configure(orientation_settings(p, spindle_axes_[i].number), dt_);
-  hardware_->configure(p, axes_, spindle_axes_, dt_);
+  spindles_.configure(p, dt_);
+  row_.spindles.resize(spindles_.size());
+  hardware_->configure(p, axes_, spindles_.axes(), dt_);
   if (first)
     place_at_hardware();
   else
@@ -81,12 +57,7 @@ void DriveCore::restore(const Memory& memory) {
   if (memory.magic != Memory::magic_value) return;
   next_ = memory.next;
   tick_ = memory.tick;
-  for (auto& [number, channel] : channels_) {
-    const auto& kept = memory.channels[number % memory.channels.size()];
-    channel.begun = kept.begun != 0;
-    channel.epoch = channel.begun ? kept.epoch : memory.epoch;
-    channel.request = kept.request;
-  }
+  streams_.restore(memory);
   std::vector<double> positions = command_;  // of axes that are not in the memory: where they are
   std::vector<std::uint8_t> homed(axes_.size(), 0);
   for (std::size_t i = 0; i < axes_.size(); ++i)
@@ -115,10 +86,7 @@ Memory DriveCore::memory() const {
   memory.axes = static_cast<std::uint32_t>(axes_.size());
   memory.next = next_;
   memory.tick = tick_;
-  for (const auto& [number, channel] : channels_) {
-    memory.epoch = std::max(memory.epoch, channel.epoch);
-    memory.channels[number % memory.channels.size()] = {channel.epoch, channel.request, channel.begun};
-  }
+  streams_.keep(memory);
   for (std::size_t i = 0; i < std::min(axes_.size(), memory.position.size()); ++i) {
     memory.position[i] = status_.axes[i].position;
     memory.homed[i] = status_.axes[i].homed ? 1 : 0;
@@ -127,18 +95,9 @@ Memory DriveCore::memory() const {
   return memory;
 }
 
-bool DriveCore::put(idl::stream::AxisFrame& frame) {
-  const auto channel = channels_.find(frame.channel);
-  return channel == channels_.end() || channel->second.window.put(frame) != stream::Arrival::differs;
-}
-
-bool DriveCore::any_active() const {
-  return std::any_of(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
-}
-
-void DriveCore::leave(Channel& channel) {
+void DriveCore::leave(ChannelStream& channel) {
   channel.active = channel.ending = channel.resume = false;
-  release_spindle(channel);
+  channel.release_spindle(spindles_);
   // The others go on from between two cycles: its axes stay where they are.
   for (const int column : channel.columns)
     if (column >= 0) target_[static_cast<std::size_t>(column)] = command_[static_cast<std::size_t>(column)];
@@ -146,14 +105,15 @@ void DriveCore::leave(Channel& channel) {
   if (mode_ == Mode::HELD || mode_ == Mode::RETURNING) mode_ = Mode::FOLLOWING;
   target_ = command_;
   std::fill(velocity_.begin(), velocity_.end(), 0.0);
-  rate_ = 1, phase_ = 0, reserve_ = 0;
+  rate_.run_whole();
+  reserve_ = 0;
   off_path_ = false;
 }
 
 void DriveCore::request(const idl::stream::StreamRequest& request) {
-  const auto found = channels_.find(request.channel);
-  if (found == channels_.end()) return;
-  auto& channel = found->second;
+  auto* const found = streams_.find(request.channel);
+  if (found == nullptr) return;
+  auto& channel = *found;
   if (request.request == channel.request && request.epoch == channel.epoch) return;
   channel.request = request.request;
   switch (request.kind) {
@@ -166,7 +126,7 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
       break;
     case StreamRequestKind::LEAVE:
       leave(channel);
-      if (mode_ == Mode::HOMING && request.channel == homing_channel_) abort_homing();
+      if (mode_ == Mode::HOMING && request.channel == search_.channel()) search_.abort();
       break;
     case StreamRequestKind::HOME:
       home(request.channel, request.axis);
@@ -174,36 +134,31 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
   }
 }
 
-void DriveCore::start(Channel& channel, const idl::stream::StreamRequest& request) {
+void DriveCore::start(ChannelStream& channel, const idl::stream::StreamRequest& request) {
   leave(channel);
   couple_slaves();
-  // A start within an epoch whose start this process did not see is a message from before it was restarted.
-  const bool new_epoch = request.kind == StreamRequestKind::NEW_EPOCH;
-  const bool known = new_epoch ? request.epoch > channel.epoch && request.epoch - channel.epoch <= most_epochs
-                               : channel.begun && request.epoch == channel.epoch;
-  if (!known) return;
+  if (!channel.expects(request)) return;
   channel.epoch = request.epoch;
   channel.begun = true;
   channel.active =
       mode_ != Mode::OFF && mode_ != Mode::BRAKING && mode_ != Mode::HOMING && all_homed() && all_aligned();
   channel.prefilled = false;
-  const auto active =
-      std::count_if(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
-  channel.start = next_ + (active > 1 ? lead_ : 0);
+  channel.start = next_ + (streams_.active() > 1 ? lead_ : 0);
   channel.window.set_next(channel.epoch, channel.start);
 }
 
 void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop) {
   bool all = !axes_.empty();
   for (const auto& axis : axes_) all = all && axis.number < enable.size() && (enable[axis.number] & 1) != 0;
-  enabled_ = all && !emergency_stop;
-  demand_slaves_off(enable);
-  if (enabled_) {
+  enable_.demand(all && !emergency_stop);
+  slaves_.demand_off(enable);
+  couple_slaves();
+  if (enable_.demanded()) {
     switch_on();
   } else if (mode_ == Mode::HELD || (mode_ == Mode::FOLLOWING && !any_active())) {
     mode_ = Mode::OFF;
   } else if (mode_ == Mode::HOMING) {
-    abort_homing();
+    search_.abort();
   } else if (mode_ != Mode::OFF && mode_ != Mode::BRAKING) {
     begin_braking();
   }
@@ -211,9 +166,14 @@ void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emerge
 
 // As soon as the drives are on: those of real hardware take their time.
 void DriveCore::switch_on() {
-  if (mode_ != Mode::OFF || control_lost_ || !hardware_->enabled()) return;
-  mode_ = any_active() ? Mode::HELD : Mode::FOLLOWING;
-  rate_ = any_active() ? 0 : 1;
+  if (mode_ != Mode::OFF || enable_.lost() || !hardware_->enabled()) return;
+  if (any_active()) {
+    mode_ = Mode::HELD;
+    rate_.hold();
+  } else {
+    mode_ = Mode::FOLLOWING;
+    rate_.run();
+  }
   align_slaves();
 }
 
@@ -237,7 +197,7 @@ void DriveCore::stop_at_newest_row(std::uint64_t starved) {
 void DriveCore::step() {
   ++tick_;
   if (const auto starved = hardware_->read(status_, rows_); starved > 0) stop_at_newest_row(starved);
-  if (mode_ == Mode::OFF && enabled_)
+  if (mode_ == Mode::OFF && enable_.demanded())
     switch_on();
   else if (mode_ != Mode::OFF && !hardware_->enabled())
     lose_control("The hardware has switched the drives off");
@@ -246,7 +206,7 @@ void DriveCore::step() {
     case Mode::OFF:
       break;
     case Mode::HELD:
-      if (resume_demanded() && prefilled(supply())) resume();
+      if (streams_.resume_demanded() && prefilled(supply())) resume();
       break;
     case Mode::RETURNING:
       step_return();
@@ -269,13 +229,8 @@ void DriveCore::step() {
 
 void DriveCore::follow_supply() {
   const auto s = supply();
-  bool begun = reserve_ > 0;
-  for (auto& [number, channel] : channels_) {
-    if (channel.active && !channel.prefilled && channel.start <= next_)
-      channel.prefilled = virtual_time_ || prefilled(s);
-    begun = begun || (channel.active && channel.prefilled);
-  }
-  if (!begun) return;
+  const bool begun = streams_.let_begin(next_, virtual_time_ || prefilled(s));
+  if (!begun && reserve_ == 0) return;
   if (enough(s)) {
     follow();
     return;
@@ -306,55 +261,42 @@ bool DriveCore::pass_cycle() {
                     axes_[i].name.c_str(), velocity_[i], static_cast<unsigned long long>(next_),
                     limits_[i].velocity * dt_);
       raise(alarm::setpoint_jump, axes_[i].number, text);
-      rate_ = 0;
+      rate_.hold();
       mode_ = Mode::HELD;
       return false;
     }
   }
   target_ = scratch_;
   rows_.handed_over(next_, row_.number + 1, target_);
-  couple_spindles();
-  for (auto& [number, channel] : channels_) {
-    if (!channel.active) continue;
-    const auto* frame = channel.window.peek();
-    if (frame == nullptr) continue;
-    channel.skip_move = frame->skip_move;
-    if (next_ + 1 != frame->first + frame->count) continue;
-    channel.snapshot = frame->snapshot;
-    channel.states = frame->states;
-    const bool ends = frame->ends;
-    channel.window.advance();
-    if (!ends) continue;
-    channel.active = false;
-    channel.ending = true;
-    release_spindle(channel);
-  }
+  streams_.couple_spindles(next_, status_.spindles, spindles_);
+  streams_.pass(next_, spindles_);
   ++next_;
   return true;
 }
 
 void DriveCore::advance(double cycles) {
-  phase_ += cycles;
-  while (phase_ >= 1) {
+  rate_.pass(cycles);
+  while (rate_.due()) {
     if (!pass_cycle()) {
-      phase_ = 0;
+      rate_.forget_phase();
       break;
     }
-    phase_ -= 1;
+    rate_.take_cycle();
   }
   if (mode_ == Mode::HELD) return;
-  if (phase_ > 0 && supply().cycles > 0) {
+  const double phase = rate_.phase();
+  if (phase > 0 && supply().cycles > 0) {
     target_of(next_, scratch_);
     for (std::size_t i = 0; i < axes_.size(); ++i)
-      command_[i] = target_[i] + phase_ * (scratch_[i] - target_[i]);
-    lead_spindles(phase_);
+      command_[i] = target_[i] + phase * (scratch_[i] - target_[i]);
+    streams_.lead_spindles(next_, phase, spindles_);
   } else {
     command_ = target_;
-    if (phase_ > 0 && mode_ == Mode::BRAKING) {  // the last setpoint at hand is passed while still moving
-      for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += phase_ * velocity_[i];
-      for (auto& spindle : spindles_) spindle.lead_on(phase_);
+    if (phase > 0 && mode_ == Mode::BRAKING) {  // the last setpoint at hand is passed while still moving
+      for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += phase * velocity_[i];
+      spindles_.lead_on(phase);
       off_path_ = true;
-      phase_ = 0;
+      rate_.forget_phase();
     }
   }
 }
@@ -362,11 +304,7 @@ void DriveCore::advance(double cycles) {
 // The channel that starts alone may begin away from where its axes are: they are moved there first. When
 // others move, its first setpoint is a setpoint like any other, and must not jump.
 bool DriveCore::approach_needed() {
-  const auto active =
-      std::count_if(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
-  const bool starts = std::any_of(channels_.begin(), channels_.end(),
-                                  [&](const auto& c) { return c.second.active && c.second.start == next_; });
-  if (!starts || active != 1) return false;
+  if (!streams_.any_starts(next_) || streams_.active() != 1) return false;
   target_of(next_, scratch_);
   for (std::size_t i = 0; i < axes_.size(); ++i)
     if (std::abs(scratch_[i] - command_[i]) > on_path_distance) return true;
@@ -374,8 +312,8 @@ bool DriveCore::approach_needed() {
 }
 
 void DriveCore::follow() {
-  if (rate_ == 1 && phase_ == 0) {  // the ordinary case: one cycle in one period, the setpoint as it is
-    keep_distances();
+  if (rate_.whole()) {
+    slaves_.keep_distances(streams_, next_, command_);
     if (approach_needed()) {
       const auto start = scratch_;
       plan_return(start);
@@ -383,11 +321,8 @@ void DriveCore::follow() {
     }
     if (!pass_cycle()) return;
     command_ = target_;
-  } else if (rate_ < 1 && dip_periods_ == 0) {
-    rate_ = std::min(1.0, rate_ + rate_step());
-    advance(rate_);
   } else {
-    return_to_whole_cycles();
+    advance(rate_.next(rate_.dips() ? 0 : rate_step()));
   }
   double moving = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i)
@@ -397,7 +332,8 @@ void DriveCore::follow() {
   reserve_ = std::min<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(moving / 2)), lead_ / 2);
   if (!any_active()) {
     settle_ = virtual_time_ ? settling_periods : 0;
-    reserve_ = 0, rate_ = 1, phase_ = 0;
+    reserve_ = 0;
+    rate_.run_whole();
     std::fill(velocity_.begin(), velocity_.end(), 0.0);
   }
 }
@@ -407,15 +343,14 @@ void DriveCore::exchange() {
   ++row_.number;
   row_.controlled = mode_ != Mode::OFF;
   row_.moving = mode_ == Mode::FOLLOWING && any_active();
-  row_.enable = row_.controlled || (enabled_ && !control_lost_);
+  row_.enable = row_.controlled || enable_.granted();
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     auto& axis = row_.axes[i];
     const double velocity = row_.controlled ? (command_[i] - axis.position) / dt_ : 0;
     const double acceleration = row_.controlled ? (velocity - axis.velocity) / dt_ : 0;
     axis = {command_[i], velocity, acceleration};
   }
-  for (std::size_t i = 0; i < spindles_.size(); ++i)
-    row_.spindles[i] = orientations_[i].step(spindles_[i].setpoint(), status_.spindles[i], row_.controlled);
+  spindles_.step(status_.spindles, row_.controlled, row_.spindles);
   if (testing() && (mode_ == Mode::OFF || mode_ == Mode::BRAKING || mode_ == Mode::HELD))
     hardware_->tester()->end(idl::servo::TestPhase::ENDED_BY_STOP);
   hardware_->exchange(row_, status_, rows_);
@@ -426,8 +361,7 @@ void DriveCore::exchange() {
     for (std::size_t i = 0; i < axes_.size(); ++i)
       command_[i] = row_.axes[i].position = status_.axes[i].hold_position;
   }
-  if (rows_.pending() > 0) return;
-  for (auto& [number, channel] : channels_) channel.ending = false;
+  if (rows_.pending() == 0) streams_.executed();
 }
 
 void DriveCore::raise(const machine::AlarmDefinition& alarm, std::uint32_t part, std::string text) {

@@ -4,58 +4,32 @@
 // DriveHardware.
 #pragma once
 
-#include <array>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "axis_limits.hpp"
+#include "axis_supervision.hpp"
+#include "channel_streams.hpp"
 #include "contracts/types.hpp"
+#include "drive_enable.hpp"
+#include "drive_event.hpp"
 #include "drive_hardware.hpp"
+#include "drive_memory.hpp"
 #include "executed_rows.hpp"
 #include "gantry_slaves.hpp"
-#include "homing.hpp"
-#include "machine/alarm_definition.hpp"
+#include "homing_search.hpp"
 #include "machine/axes.hpp"
-#include "spindle_coupling.hpp"
-#include "spindle_orientation.hpp"
-#include "stream/frame_window.hpp"
+#include "path_rate.hpp"
+#include "probe_watch.hpp"
+#include "return_move.hpp"
+#include "spindles.hpp"
 
 namespace trunnion::drive {
 
 using Mode = idl::stream::DriveMode;
-
-/// mm or deg: axes nearer than this to a point of the path need not be moved there.
-inline constexpr double on_path_distance = 1e-6;
-
-/// Periods after a motion in virtual time, until the servos are at rest.
-inline constexpr std::uint32_t settling_periods = 250;
-
-/// What must survive the process: where the axes are and which cycle is next.
-struct Memory {
-  static constexpr std::uint32_t magic_value = 0x54524e31;
-  struct Channel {
-    std::uint32_t epoch = 0, request = 0;
-    std::uint32_t begun = 0;  ///< the start of the epoch was seen: a start within it is no old message
-  };
-  std::uint32_t magic = 0;
-  std::uint32_t axes = 0;
-  std::uint32_t epoch = 0;  ///< newest of any channel
-  std::uint64_t next = 0, tick = 0;
-  std::array<double, 32> position{};
-  std::array<Channel, 32> channels{};
-  std::array<std::uint8_t, 32> homed{};    ///< the position has its reference
-  std::array<std::uint16_t, 32> number{};  ///< logical number of each axis
-};
-
-/// Something to report: the service turns it into an alarm.
-struct DriveEvent {
-  const machine::AlarmDefinition* alarm = nullptr;
-  std::uint32_t part = 0;
-  std::string text;
-};
 
 class DriveCore {
  public:
@@ -78,22 +52,18 @@ class DriveCore {
   void continue_from(const bus::Json& state);
 
   /// A frame of the gantry stage; swapped away. False when a replica differs from what is here.
-  bool put(idl::stream::AxisFrame& frame);
+  bool put(idl::stream::AxisFrame& frame) { return streams_.put(frame); }
   /// What is here of the same channel, epoch and first cycle; null when nothing is.
   const idl::stream::AxisFrame* first_arrival(const idl::stream::AxisFrame& frame) {
-    return channels_[frame.channel].window.first_arrival(frame);
+    const auto* channel = streams_.find(frame.channel);
+    return channel == nullptr ? nullptr : channel->window.first_arrival(frame);
   }
   void request(const idl::stream::StreamRequest& request);
   void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);
-  void set_spindle_speed(const std::vector<double>& speed) {
-    for (std::size_t i = 0; i < spindles_.size(); ++i)
-      spindles_[i].demand_speed(i < speed.size() ? speed[i] : 0);
-  }
-
+  void set_spindle_speed(const std::vector<double>& speed) { spindles_.demand_speeds(speed); }
   /// Spindles that turn to their orientation angle and are held there; not while they are coupled.
   void set_spindle_orientation(const std::vector<std::uint8_t>& orient) {
-    for (std::size_t i = 0; i < orientations_.size(); ++i)
-      orientations_[i].demand(i < orient.size() && orient[i] != 0);
+    spindles_.demand_orientations(orient);
   }
 
   /// With the probe on, a rising edge of skip input 1 outside a skip move stops the axes and is an alarm.
@@ -124,7 +94,7 @@ class DriveCore {
   std::uint64_t next() const { return next_; }
   std::uint64_t tick() const { return tick_; }
   std::uint64_t starved() const { return starved_; }
-  bool any_active() const;
+  bool any_active() const { return streams_.any_active(); }
   /// A channel owes setpoints that are not here while the axes move or must begin.
   bool waiting() const;
   double period() const { return dt_; }
@@ -135,63 +105,44 @@ class DriveCore {
   /// A test of servo loops runs whose time passes at rest.
   bool needs_time() const { return hardware_->tester() != nullptr && hardware_->tester()->needs_time(); }
 
+  /// For libs/snapshot.
+  /// No fields, configure() sets them: dt_, virtual_time_, lead_, prefill_, revision_, axes_, limits_.
+  /// No fields, the hardware has a state of its own and gives its status: hardware_, status_.
+  /// No fields, every use sets them before: scratch_, before_.
+  /// No fields, the service has taken them: resumed_, events_.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    ChannelStreams::fields(self.streams_, visit);
+    visit("row", self.row_), visit("rows", self.rows_);
+    ProbeWatch::fields(self.probe_, visit);
+    visit("mode", self.mode_);
+    DriveEnable::fields(self.enable_, visit);
+    visit("next", self.next_), visit("tick", self.tick_), visit("starved", self.starved_);
+    visit("command", self.command_), visit("target", self.target_), visit("velocity", self.velocity_);
+    PathRate::fields(self.rate_, visit);
+    visit("off_path", self.off_path_), visit("reserve", self.reserve_);
+    visit("settle", self.settle_);
+    HomingSearch::fields(self.search_, visit);
+    ReturnMove::fields(self.return_, visit);
+    Spindles::fields(self.spindles_, visit);
+    AxisSupervision::fields(self.supervision_, visit);
+    GantrySlaves::fields(self.slaves_, visit);
+    if (!std::is_const_v<Self> || self.after_alignment_ != Mode::OFF)
+      visit("after_alignment", self.after_alignment_);
+  }
+
  private:
-  struct Limits {
-    double velocity, acceleration, positive, negative, following, encoder_difference;
-    int homing_direction;  // 0: none is needed
-    int homing_marks;      // 10a922
-    double homing_search, homing_creep, reference;
-  };
-  struct Channel {
-    stream::FrameWindow<idl::stream::AxisFrame> window;
-    bool active = false;
-    bool ending = false;     // its last setpoints are handed over and not all executed
-    bool prefilled = false;  // enough has arrived to begin
-    bool begun = false;      // an epoch was started in this process
-    bool resume = false;     // continues, once every channel that was stopped does
-    std::uint32_t epoch = 0, request = 0;
-    std::uint64_t start = 0;
-    idl::stream::ChannelSnapshot snapshot;
-    std::vector<idl::stream::StageState> states;
-    std::vector<std::uint16_t> axes;  // of the frames, and the column of each
-    std::vector<int> columns;
-    int spindle = -1;        // that follows the channel's frames
-    bool skip_move = false;  // of the newest frame of which a setpoint was passed
-
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit&& visit) {
-      visit("window", self.window), visit("active", self.active), visit("ending", self.ending);
-      visit("prefilled", self.prefilled), visit("begun", self.begun), visit("epoch", self.epoch);
-      visit("request", self.request), visit("start", self.start), visit("snapshot", self.snapshot);
-      visit("states", self.states), visit("axes", self.axes), visit("columns", self.columns);
-      visit("spindle", self.spindle), visit("skip_move", self.skip_move);
-      visit("resume", self.resume);
-    }
-  };
-  // How far the setpoints at hand reach.
-  struct Supply {
-    std::uint64_t cycles = 0;  // from next_ on, for every channel that owes one
-    bool ends = false;         // nothing is owed after them
-  };
-
-  friend struct DriveState;  // drive_state.cpp
-
-  Supply supply() const;
-  const double* row(const Channel& channel, std::uint64_t cycle) const;
+  StreamSupply supply() const { return streams_.supply(next_, lead_); }
   void target_of(std::uint64_t cycle, std::vector<double>& out);
   double stop_periods(std::uint64_t cycles);
-  bool enough(const Supply& supply) const;
-  bool prefilled(const Supply& supply) const;
-  void start(Channel& channel, const idl::stream::StreamRequest& request);
+  bool enough(const StreamSupply& supply) const;
+  bool prefilled(const StreamSupply& supply) const;
+  void start(ChannelStream& channel, const idl::stream::StreamRequest& request);
   bool all_homed();
   void home(std::uint16_t channel, std::uint16_t axis);
   void reference(std::size_t column, double shift);
+  void reference_members();
   void step_homing();
-  bool begin_homing(std::size_t column);
-  double homing_travel(std::size_t column) const;
-  void report_homing_failure();
-  Homing::Signals homing_signals();
-  void abort_homing();
   void follow_supply();
   void begin_braking();
   bool pass_cycle();
@@ -199,15 +150,9 @@ class DriveCore {
   bool approach_needed();
   void follow();
   void brake();
-  bool resume_demanded() const;
-  void forget_resumes();
   void resume();
   void step_return();
   void plan_return(const std::vector<double>& target);
-  const double* spindle_row(const Channel& channel, std::uint64_t cycle) const;
-  void couple_spindles();
-  void lead_spindles(double phase);
-  void release_spindle(Channel& channel);
   void exchange();
   void place_at_hardware();
   void switch_on();
@@ -216,23 +161,16 @@ class DriveCore {
   void switch_off();
   void stop_at_newest_row(std::uint64_t starved);
   void supervise();
-  bool does_not_follow(std::size_t column);
-  void switch_off_for(std::size_t column);
-  std::optional<double> beyond_travel(std::size_t column) const;
   bool testing() const { return hardware_->tester() != nullptr && hardware_->tester()->running(); }
   void watch_probe();
-  double compensated_offset(const GantrySlave& slave) const;
   void align_slaves();
   void end_alignment();
   void report_misalignment(const GantrySlave& slave, double error);
   bool all_aligned();
-  void demand_slaves_off(const std::vector<std::uint8_t>& enable);
   void couple_slaves();
-  void keep_distances();
   void stopped();
   double rate_step();
-  void return_to_whole_cycles();
-  void leave(Channel& channel);
+  void leave(ChannelStream& channel);
   void raise(const machine::AlarmDefinition& alarm, std::uint32_t part, std::string text);
 
   double dt_ = 0.001;
@@ -241,65 +179,36 @@ class DriveCore {
   std::uint64_t prefill_ = 23;  // cycles at hand to begin with
   std::uint64_t revision_ = 0;
   std::vector<machine::AxisInfo> axes_;
-  std::vector<Limits> limits_;
+  std::vector<AxisLimits> limits_;
   std::unique_ptr<DriveHardware> hardware_;
   SetpointRow row_;
   DriveStatus status_;
-  std::map<std::uint16_t, Channel> channels_;
+  ChannelStreams streams_;
 
   Mode mode_ = Mode::OFF;
-  bool enabled_ = false;
-  bool probe_contact_ = false;     // skip input 1 was on in the period before
-  bool probe_watched_ = false;     // the probe was on in it
-  bool control_lost_ = false;      // the hardware has switched a drive off; until the alarms are reset
-  std::uint32_t off_periods_ = 0;  // in which the drives did not come on although they are enabled
+  DriveEnable enable_;
+  ProbeWatch probe_;
   std::uint64_t next_ = 0, tick_ = 0, starved_ = 0;
   std::vector<double> command_;   // setpoint of this period
   std::vector<double> target_;    // setpoint of cycle next_ - 1: a point of the path
   std::vector<double> velocity_;  // of the path at target_, per cycle
   std::vector<double> scratch_, before_;
 
-  // Braking and resuming: `rate_` cycles pass in one period, `phase_` is how far the next cycle has begun.
-  double rate_ = 1, rate_step_ = 0, phase_ = 0;
-  double dip_step_ = 0;
-  std::uint32_t dip_depth_ = 0, dip_periods_ = 0;
+  PathRate rate_;
   bool off_path_ = false;  // braking continued along the tangent, so the axes are not on the path
   bool resumed_ = false;
   std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits
   std::uint32_t settle_ = 0;   // periods until the servos are at rest, in virtual time
-  Homing homing_;
-  std::size_t homing_axis_ = 0;       // column
-  std::uint16_t homing_channel_ = 0;  // that has demanded it
-  struct HomingMember {
-    std::size_t column = 0;
-    double sign = 1, from = 0;  // of its motion in that of homing_axis_; position at the start
-    bool edge_taken = false, mark_taken = false;
-    double latch = 0;
-    std::uint64_t marks = 0;  // when its edge was taken
-
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit&& visit) {
-      visit("column", self.column), visit("sign", self.sign), visit("from", self.from);
-      visit("edge_taken", self.edge_taken), visit("mark_taken", self.mark_taken);
-      visit("latch", self.latch), visit("marks", self.marks);
-    }
-  };
-  std::vector<HomingMember> homing_members_;  // homing_axis_ and the slaves that move with it
+  HomingSearch search_;
   GantrySlaves slaves_;
   Mode after_alignment_ = Mode::OFF;  // while slaves are aligned: what follows
-  std::vector<double> return_from_, return_to_;
-  std::uint32_t return_periods_ = 0, return_done_ = 0;
+  ReturnMove return_;
 
-  std::vector<machine::AxisInfo> spindle_axes_;
-  std::vector<SpindleCoupling> spindles_;
-  std::vector<SpindleOrientation> orientations_;
+  Spindles spindles_;
 
   std::vector<DriveEvent> events_;
   ExecutedRows rows_;
-  std::vector<bool> reported_;  // per axis: supervision has fired since the last acknowledge
-  // Of each axis: number of the newest row that moves it, and periods at rest with too large an error.
-  std::vector<std::uint64_t> moved_;
-  std::vector<std::uint32_t> unsettled_;
+  AxisSupervision supervision_;
 };
 
 }  // namespace trunnion::drive

@@ -8,7 +8,7 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
   const std::size_t n = axes_.size();
   rows_.fill(out, next_);
   out.tick = tick_;
-  out.mode = mode_ == Mode::HELD && resume_demanded() ? Mode::RETURNING : mode_;
+  out.mode = mode_ == Mode::HELD && streams_.resume_demanded() ? Mode::RETURNING : mode_;
   out.revision = revision_;
   out.axis_count = static_cast<std::uint16_t>(n);
   out.velocity.resize(n);
@@ -22,26 +22,10 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
     const auto* slave = slaves_.at(i);
     out.enabled[i] = mode_ == Mode::OFF ? 0 : slave != nullptr && slave->off ? 3 : 1;
   }
-  out.spindle_speed.resize(spindles_.size());
-  for (std::size_t i = 0; i < spindles_.size(); ++i) out.spindle_speed[i] = status_.spindles[i].speed;
-  out.spindle_oriented.resize(spindles_.size());
-  for (std::size_t i = 0; i < spindles_.size(); ++i)
-    out.spindle_oriented[i] = orientations_[i].oriented(status_.spindles[i]) ? 1 : 0;
+  spindles_.fill(status_.spindles, out);
   out.starved = starved_;
   out.skip_inputs = status_.skip_inputs;
-  out.channels.resize(channels_.size());
-  std::size_t k = 0;
-  for (const auto& [number, channel] : channels_) {
-    auto& echo = out.channels[k++];
-    echo.channel = number;
-    echo.epoch = channel.epoch;
-    echo.active = channel.active || channel.ending;
-    echo.next = next_;
-    echo.request = channel.request;
-    echo.start = channel.start;
-    echo.snapshot = channel.snapshot;
-    echo.states = channel.states;
-  }
+  streams_.fill(next_, out);
 }
 
 }  // namespace trunnion::drive

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "machine/gantry_pairs.hpp"
@@ -32,6 +33,9 @@ struct GantrySlave {
   }
 };
 
+class ChannelStreams;
+
+/// `command`: the setpoints of all axes in this period.
 class GantrySlaves {
  public:
   /// Slaves keep their state when the parameters change. Without valid pairs there are none: the gantry stage
@@ -45,11 +49,29 @@ class GantrySlaves {
     return slaves_.empty() || by_column_[column] < 0 ? nullptr
                                                      : &slaves_[static_cast<std::size_t>(by_column_[column])];
   }
+  /// mm by which a slave is ahead of its place beside its master, without what compensation accounts for,
+  /// which is known once the channel has moved.
+  static double misalignment(const GantrySlave& slave, const ChannelStreams& streams,
+                             const std::vector<double>& command);
+  /// `enable`: Outputs::axis_enable of the PLC.
+  void demand_off(const std::vector<std::uint8_t>& enable);
+  /// At rest: takes slaves off and couples them again as it is demanded.
+  void couple(const std::vector<double>& command);
+  /// Before `next`, the first setpoint of a channel since the drives were switched on or a slave was coupled:
+  /// what is between the slave and its place stays.
+  void keep_distances(const ChannelStreams& streams, std::uint64_t next, const std::vector<double>& command);
   /// The setpoint of an axis whose frame has `value`.
   double setpoint(std::size_t column, double value) const {
     const auto* slave = at(column);
     if (slave == nullptr) return value;
     return slave->off ? slave->held : value + slave->offset;
+  }
+
+  /// Written where there are some: recordings of machines without gantries have no such state.
+  /// No field, configure() sets it: by_column_.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    if (!std::is_const_v<Self> || !self.slaves_.empty()) visit("slaves", self.slaves_);
   }
 
  private:

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stops the axes, and what switches them off: following errors, encoders that differ, travel, drives.
+// What stops the axes, and what switches them off: supervision, the touch probe and drives.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "drive_core.hpp"
 #include "machine/alarm_constants.hpp"
-#include "machine/parameter_constants.hpp"
 #include "timeouts.hpp"
 
 namespace trunnion::drive {
-namespace {
-constexpr double excessive = 2;  // times the limit of the following error
-}  // namespace
 
 // An emergency stop chain that is open shows itself by nothing else: its alarm can be reset all the same.
 void DriveCore::await_drives() {
-  const bool waits = mode_ == Mode::OFF && enabled_ && !control_lost_;
-  off_periods_ = waits ? off_periods_ + 1 : 0;
-  if (off_periods_ * dt_ <= drives_on_timeout) return;
+  if (!enable_.is_late(mode_ == Mode::OFF, dt_)) return;
   char text[80];
   std::snprintf(text, sizeof text, "The drives are not on %g s after their enable", drives_on_timeout);
   lose_control(text);
@@ -45,94 +39,54 @@ void DriveCore::lose_control(std::string text) {
 }
 
 void DriveCore::switch_off() {
-  control_lost_ = true;
+  enable_.lose();
   off_path_ = any_active();
-  rate_ = 0, reserve_ = 0, phase_ = 0;
+  rate_.hold();
+  rate_.forget_phase();
+  reserve_ = 0;
   mode_ = Mode::OFF;
 }
 
-// An error behind which a stop along the path moves the axis only further: it is far beyond its limit, or is
-// there still when the axis should have come to rest. The row in force counts, not the newest of a queue.
-bool DriveCore::does_not_follow(std::size_t i) {
-  const double limit = limits_[i].following, error = std::abs(status_.axes[i].following_error);
-  if (row_.axes[i].velocity != 0) moved_[i] = row_.number;
-  if (limit <= 0 || error <= limit) {
-    unsettled_[i] = 0;
-    return false;
-  }
-  unsettled_[i] = rows_.in_force() > moved_[i] ? unsettled_[i] + 1 : 0;
-  return error > excessive * limit || unsettled_[i] > settling_periods;
-}
-
-// Its drive cannot be braked by setpoints, and the other axes stop with it.
-void DriveCore::switch_off_for(std::size_t i) {
-  const auto& axis = axes_[i];
-  char text[240];
-  std::snprintf(
-      text, sizeof text,
-      "Axis %s does not follow: following error %.4f %s, limit %.4f (parameter %s). The drives were "
-      "switched off: check its encoder, motor and direction, then reset",
-      axis.name.c_str(), status_.axes[i].following_error,
-      axis.type == machine::axis_type_linear ? "mm" : "deg", limits_[i].following,
-      machine::number_text(parameter::following_error_limit.number(axis.number)).c_str());
-  raise(alarm::following_error_excessive, axis.number, text);
-  switch_off();
-}
-
-// By the encoder, too: the setpoint is within the travel while the axis runs away from it.
-std::optional<double> DriveCore::beyond_travel(std::size_t i) const {
-  constexpr double margin = 0.5;
-  const auto& l = limits_[i];
-  const auto& axis = status_.axes[i];
-  if ((command_[i] > l.positive + margin && velocity_[i] > 0) ||
-      (command_[i] < l.negative - margin && velocity_[i] < 0))
-    return command_[i];
-  if (!axis.homed) return std::nullopt;
-  const double ahead = axis.position - command_[i];
-  if ((axis.position > l.positive + margin && ahead > margin && axis.velocity > 0) ||
-      (axis.position < l.negative - margin && ahead < -margin && axis.velocity < 0))
-    return axis.position;
-  return std::nullopt;
-}
-
+// The drive of an axis that does not follow cannot be braked by setpoints, and the other axes stop with it.
 void DriveCore::supervise() {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (does_not_follow(i)) {
-      switch_off_for(i);
+    const SupervisedAxis axis{axes_[i], limits_[i], status_.axes[i], command_[i], velocity_[i]};
+    const bool moves = row_.axes[i].velocity != 0;
+    if (supervision_.does_not_follow(i, axis, moves, row_.number, rows_.in_force())) {
+      events_.push_back(excessive_following_error(axis));
+      switch_off();
       return;
     }
-    if (reported_[i]) continue;
-    const auto& l = limits_[i];
-    const double error = status_.axes[i].following_error;
-    char text[200];
-    if (l.following > 0 && std::abs(error) > l.following) {
-      std::snprintf(text, sizeof text, "Axis %s: following error %.4f, limit %.4f (parameter %s)",
-                    axes_[i].name.c_str(), error, l.following,
-                    machine::number_text(parameter::following_error_limit.number(axes_[i].number)).c_str());
-      raise(alarm::following_error, axes_[i].number, text);
-    } else if (const double difference = status_.axes[i].encoder_difference;
-               l.encoder_difference > 0 && std::abs(difference) > l.encoder_difference) {
-      std::snprintf(
-          text, sizeof text, "Axis %s: motor and load encoder differ by %.4f, limit %.4f (parameter %s)",
-          axes_[i].name.c_str(), difference, l.encoder_difference,
-          machine::number_text(parameter::encoder_difference_limit.number(axes_[i].number)).c_str());
-      raise(alarm::encoder_difference, axes_[i].number, text);
-    } else if (const auto at = beyond_travel(i)) {
-      std::snprintf(text, sizeof text, "Axis %s at %.4f is beyond its travel %.4f .. %.4f",
-                    axes_[i].name.c_str(), *at, l.negative, l.positive);
-      raise(alarm::over_travel, axes_[i].number, text);
-    } else {
-      continue;
+    if (auto event = supervision_.finding(i, axis)) {
+      events_.push_back(std::move(*event));
+      stop();
     }
-    reported_[i] = true;
-    stop();
   }
+}
+
+// Behind the last setpoint of a skip move the contact may still come: the axes follow with their lag.
+void DriveCore::watch_probe() {
+  if (!probe_.made((status_.skip_inputs & 1u) != 0, row_.probe_on)) return;
+  if (mode_ != Mode::HOMING && streams_.any_skips()) return;
+  std::string place;
+  for (std::size_t i = 0; i < axes_.size() && place.size() < 120; ++i) {
+    char text[48];
+    const bool turns = axes_[i].type != machine::axis_type_linear;
+    std::snprintf(text, sizeof text, "%s%s %.4f%s", place.empty() ? "" : ", ", axes_[i].name.c_str(),
+                  status_.axes[i].position, turns ? " deg" : " mm");
+    place += text;
+  }
+  raise(alarm::probe_contact, 0,
+        "The touch probe made contact outside a skip move at " + place + ": reset, then retract the probe");
+  if (mode_ == Mode::RETURNING)
+    begin_braking();
+  else
+    stop();
 }
 
 void DriveCore::acknowledge() {
-  std::fill(reported_.begin(), reported_.end(), false);
-  control_lost_ = false;
-  off_periods_ = 0;
+  supervision_.acknowledge();
+  enable_.acknowledge();
   hardware_->reset_faults();
 }
 
