@@ -7,10 +7,10 @@
 
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
+#include "cluster/session_cluster.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
 #include "machine/parameter_constants.hpp"
-#include "session_cluster.hpp"
 #include "stream/gantry_synchronization.hpp"
 #include "stream/stage_core.hpp"
 
@@ -49,12 +49,12 @@ bus::Json json_of(double value, const char* unit, double limit, std::uint32_t nu
 }
 
 int show_gantry(const GantryOptions& o, const Common& common) {
-  SessionCluster cluster(o.machine, common.domain);
-  cluster::Client client(cluster.running().run.domain);
+  const cluster::SessionCluster session(o.machine, common.domain);
+  cluster::Client client(session.running().run.domain);
   const auto p = machine::parameters_of(client.newest(topics::parameter_set));
   const auto axes = machine::drive_axes(p);
   const auto feedback = client.newest(topics::feedback_frame);
-  bus::Json out = {{"machine", cluster.running().machine}, {"gantries", bus::Json::array()}};
+  bus::Json out = {{"machine", session.running().machine}, {"gantries", bus::Json::array()}};
   idl::parameters::ParameterRequest request;
   request.operation = idl::parameters::Operation::IMPORT;
   request.who = "gantry auto offset";
@@ -123,13 +123,13 @@ int show_gantry(const GantryOptions& o, const Common& common) {
               offset.now);
     }
   }
-  const bool write = o.write && !request.values.empty() && !cluster.own();
+  const bool write = o.write && !request.values.empty() && !session.own();
   if (write) client.parameter(std::move(request));
   out["written"] = write;
   if (common.json) {
     std::cout << bus::text_of(out) << "\n";
   } else if (out["gantries"].empty() && machine::gantry_pairs(p).empty()) {
-    print("{} has no gantry (parameters 010050, 10a100)", cluster.running().machine);
+    print("{} has no gantry (parameters 010050, 10a100)", session.running().machine);
   } else if (write) {
     print("written; it acts after a restart, then home axes with an incremental encoder");
   } else {

@@ -10,10 +10,10 @@
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "cluster/machine_session.hpp"
+#include "cluster/session_cluster.hpp"
 #include "machine/parameters.hpp"
 #include "servo_analysis/axis_tuning.hpp"
 #include "servo_analysis/test_programs.hpp"
-#include "session_cluster.hpp"
 
 namespace trunnion::cli {
 
@@ -73,7 +73,7 @@ class ServoSession {
   void check();
   void renew();
 
-  std::optional<SessionCluster> cluster_;
+  std::optional<cluster::SessionCluster> cluster_;
   std::unique_ptr<cluster::Client> client_;
   std::optional<cluster::MachineSession> channel_;
   std::unique_ptr<bus::Writer<idl::servo::TestRequest>> requests_;
