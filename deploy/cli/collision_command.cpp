@@ -19,7 +19,7 @@
 #include "collision_machine.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
-#include "machine_settings.hpp"
+#include "machine_directory.hpp"
 #include "storage/file.hpp"
 
 namespace trunnion::cli {

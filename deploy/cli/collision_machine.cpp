@@ -8,7 +8,7 @@
 
 #include "machine/chain_parameters.hpp"
 #include "machine/yaml.hpp"
-#include "machine_settings.hpp"
+#include "machine_directory.hpp"
 
 namespace trunnion::cli {
 

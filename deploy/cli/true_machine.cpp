@@ -8,8 +8,9 @@
 
 #include "machine/kinematics.hpp"
 #include "machine/machine.hpp"
+#include "machine/parameter_setting.hpp"
 #include "machine/yaml.hpp"
-#include "machine_settings.hpp"
+#include "machine_directory.hpp"
 #include "text/quantity.hpp"
 #include "volumetric/model_parameters.hpp"
 
@@ -66,7 +67,7 @@ TrueMachine load_true_machine(const std::string& name, std::uint16_t channel,
   truth::Temperatures temperatures{};
   for (const auto& setting : settings)
     if (!apply_truth_setting(machine.truth.geometry, temperatures, machine.outline, setting))
-      apply_setting(model, channel, setting);
+      machine::apply_setting(model, channel, setting);
   machine.report =
       std::make_unique<truth::PoseReport>(truth::make_geometry(machine.truth.geometry, machine.outline, file),
                                           machine::make_chain(model, channel), machine.outline);

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "machine_settings.hpp"
+#include "machine/parameter_setting.hpp"
 
-#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 
-#include "cluster/cluster_files.hpp"
 #include "machine/kinematics.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::machine {
 namespace {
 
 // The vector of a correction, as its element in machine.yaml has it.
-bool apply_correction(machine::Parameters& parameters, std::uint16_t channel, const std::string& name,
+bool apply_correction(Parameters& parameters, std::uint16_t channel, const std::string& name,
                       const std::string& text) {
-  for (const auto& element : machine::correction_elements(parameters, channel)) {
+  for (const auto& element : correction_elements(parameters, channel)) {
     if (element.name != name) continue;
     std::istringstream in(text);
     double v[3];
@@ -24,7 +22,7 @@ bool apply_correction(machine::Parameters& parameters, std::uint16_t channel, co
       throw std::runtime_error("--set " + name + ": expected NAME=X,Y,Z");
     for (std::uint32_t i = 0; i < 3; ++i) {
       const double value = element.sign * v[i];
-      const auto refused = machine::Catalogue::instance().check(element.number + i, value, "");
+      const auto refused = Catalogue::instance().check(element.number + i, value, "");
       if (!refused.empty()) throw std::runtime_error(refused);
       parameters.values[element.number + i] = {value, ""};
     }
@@ -35,13 +33,7 @@ bool apply_correction(machine::Parameters& parameters, std::uint16_t channel, co
 
 }  // namespace
 
-std::string machine_directory(const std::string& machine) {
-  const std::filesystem::path path(machine);
-  if (path.filename() != "machine.yaml") return cluster::find_machine(machine);
-  return cluster::find_machine(path.has_parent_path() ? path.parent_path().string() : ".");
-}
-
-void apply_setting(machine::Parameters& parameters, std::uint16_t channel, const std::string& setting) {
+void apply_setting(Parameters& parameters, std::uint16_t channel, const std::string& setting) {
   const auto equals = setting.find('=');
   if (equals == std::string::npos)
     throw std::runtime_error("--set " + setting + ": expected NUMBER=VALUE or NAME=X,Y,Z");
@@ -50,8 +42,8 @@ void apply_setting(machine::Parameters& parameters, std::uint16_t channel, const
   if (!number.empty() && number.size() < 6) number.insert(0, 6 - number.size(), '0');
   // As a line of parameters.yaml, so that the same limits hold.
   const auto values =
-      machine::read_parameter_text("\"" + number + "\": " + setting.substr(equals + 1), "--set " + setting);
+      read_parameter_text("\"" + number + "\": " + setting.substr(equals + 1), "--set " + setting);
   for (const auto& [key, value] : values) parameters.values[key] = value;
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::machine
