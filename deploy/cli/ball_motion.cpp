@@ -66,7 +66,8 @@ BallTest::BallTest(ServoSession& session, const BallOptions& options)
   report->tool_length = set_.tool_length;
   report->temperatures = machine_.report->temperatures;
   machine_.report = std::move(report);
-  sensor_.emplace(options_.source == "true" ? instrument(machine_, "rtest") : truth::InstrumentTruth{});
+  sensor_.emplace(options_.source == "true" ? identification::instrument(machine_, "rtest")
+                                            : truth::InstrumentTruth{});
 }
 
 void BallTest::find_circle() {

@@ -118,7 +118,7 @@ int measure_circle(const CircleOptions& o, const Common& common) {
         machine.report->geometry(), machine::make_chain(parameters, o.channel), machine.outline);
     machine.report->tool_length = o.tool_length;
     points = identification::true_points(motion, plane, circle, *machine.report);
-    instrument_truth = instrument(machine, "ballbar");
+    instrument_truth = identification::instrument(machine, "ballbar");
   } else {
     points = identification::encoder_points(motion, plane);
   }

@@ -56,7 +56,8 @@ int ballbar(const MeasureOptions& o, bool json) {
   path.first = o.plane[0] == 'X' ? 0 : 1;
   path.second = o.plane[1] == 'Y' ? 1 : 2;
   if (o.points > 0) path.points = o.points;
-  const auto m = truth::measure_ballbar(*machine.report, path, instrument(machine, "ballbar"));
+  const auto m =
+      truth::measure_ballbar(*machine.report, path, identification::instrument(machine, "ballbar"));
   const auto r = circular_tests::circle_report(o.plane, path.radius, m.ccw, m.cw);
   write_plot(o.plot, ballbar_picture(m, machine.name + ", plane " + o.plane), json);
   if (json) {
@@ -91,8 +92,8 @@ int laser(const MeasureOptions& o, bool json) {
   plan.others = coordinates("--at", o.at);
   if (o.points > 0) plan.targets = o.points;
   plan.runs = o.runs;
-  const auto m =
-      truth::measure_laser(*machine.report, plan, instrument(machine, angle ? "laser_angle" : "laser"));
+  const auto m = truth::measure_laser(*machine.report, plan,
+                                      identification::instrument(machine, angle ? "laser_angle" : "laser"));
   const double unit = angle ? urad : um;
   const char* name = angle ? "urad" : "um";
   write_plot(o.plot, laser_picture(m, machine.name + " " + o.error, unit, name), json);
@@ -136,7 +137,7 @@ int sensor_nest(const MeasureOptions& o, bool json) {
                to = given ? o.to : std::min(travel.high, 180.0);
   const auto readings =
       truth::measure_nest(*machine.report, 3 + index, from, to, o.points > 0 ? o.points : 13,
-                          coordinates("--at", o.at), instrument(machine, "rtest"));
+                          coordinates("--at", o.at), identification::instrument(machine, "rtest"));
   bus::Json out = bus::Json::array();
   for (const auto& r : readings) {
     if (json) {
