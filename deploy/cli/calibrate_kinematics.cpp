@@ -20,7 +20,7 @@
 #include "figures.hpp"
 #include "machine/yaml.hpp"
 #include "measurement_session.hpp"
-#include "report/plot.hpp"
+#include "report/residual_picture.hpp"
 #include "storage/file.hpp"
 #include "variables_command.hpp"
 
@@ -92,35 +92,6 @@ void take_reference(const KinematicsOptions& o, calibration::MeasurementInputs& 
   if (o.reference.empty()) throw std::runtime_error("a reference needs its file: --reference FILE");
   if (in.reference == calibration::Reference::adapt)
     in.reference_measurement = calibration::parse_reference(machine::read_text(o.reference), o.reference);
-}
-
-// Differences before and residuals after of each pose, in um.
-std::string residual_picture(const calibration::KinematicsResult& result, const std::string& title) {
-  report::Range y{0, 0};
-  for (const auto& pose : result.poses)
-    for (int i = 0; i < 3; ++i)
-      y = {std::min({y.low, um * pose.difference[i], um * pose.residual[i]}),
-           std::max({y.high, um * pose.difference[i], um * pose.residual[i]})};
-  const double margin = std::max(0.1 * y.span(), 0.1);
-  report::Plot plot(80, 70, 640, 320, {0, static_cast<double>(result.poses.size() + 1)},
-                    {y.low - margin, y.high + margin});
-  plot.labels("pose", "um");
-  constexpr const char* colours[]{"#cf222e", "#1a7f37", "#0969da"};
-  for (int i = 0; i < 3; ++i) {
-    std::vector<report::PlotPoint> before, after;
-    for (std::size_t k = 0; k < result.poses.size(); ++k) {
-      before.push_back({static_cast<double>(k + 1), um * result.poses[k].difference[i]});
-      after.push_back({static_cast<double>(k + 1), um * result.poses[k].residual[i]});
-    }
-    const std::string stroke = std::string("stroke=\"") + colours[i] + "\"";
-    plot.curve(before, stroke + " stroke-width=\"1\" stroke-dasharray=\"4 3\"");
-    plot.curve(after, stroke + " stroke-width=\"1.6\"");
-  }
-  return report::document(
-      760, 450,
-      report::text(80, 24, report::escaped(title), "font-size=\"15\" font-weight=\"600\"") +
-          report::text(80, 44, "X red, Y green, Z blue; dashed: difference before, line: residual after") +
-          plot.svg());
 }
 
 bus::Json json_of(const calibration::KinematicsResult& r, const calibration::MeasuredMachine& machine,
@@ -331,8 +302,8 @@ int kinematics(const KinematicsOptions& o, const Common& common) {
                                  in, measured, result);
   if (!o.protocol.empty()) storage::replace_file(o.protocol, text);
   if (!o.plot.empty())
-    storage::replace_file(o.plot,
-                          residual_picture(result, measured.name + ": measurement of the kinematics"));
+    storage::replace_file(
+        o.plot, report::residual_picture(result, measured.name + ": measurement of the kinematics"));
   auto out = json_of(result, measured, in);
   if (!common.json) std::fputs(text.c_str(), stdout);
   if (o.check > 0) check_rtcp(o, machine, measured, in, result, common.json, out);

@@ -16,10 +16,10 @@
 #include "figures.hpp"
 #include "identification/circle_points.hpp"
 #include "machine/kinematics.hpp"
+#include "report/truth_pictures.hpp"
 #include "storage/file.hpp"
 #include "true_machine.hpp"
 #include "truth/measurement.hpp"
-#include "truth_picture.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -141,9 +141,9 @@ int measure_circle(const CircleOptions& o, const Common& common) {
   if (!o.output.empty()) write_readings(o.output, measured.ccw, measured.cw);
   if (!o.plot.empty())
     storage::replace_file(
-        o.plot,
-        ballbar_picture(measured, fmt::format("{}, plane {}, R{:g} F{:.0f}, {}", name, o.plane, circle.radius,
-                                              feed, from_truth ? "true machine" : "encoders")));
+        o.plot, report::ballbar_picture(
+                    measured, fmt::format("{}, plane {}, R{:g} F{:.0f}, {}", name, o.plane, circle.radius,
+                                          feed, from_truth ? "true machine" : "encoders")));
   if (common.json) {
     auto out = report_json(report);
     out["machine"] = name, out["source"] = o.source;

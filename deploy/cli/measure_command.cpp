@@ -15,10 +15,10 @@
 #include "commands.hpp"
 #include "figures.hpp"
 #include "geometry_command.hpp"
+#include "report/truth_pictures.hpp"
 #include "storage/file.hpp"
 #include "true_machine.hpp"
 #include "truth/measurement.hpp"
-#include "truth_picture.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -59,7 +59,7 @@ int ballbar(const MeasureOptions& o, bool json) {
   const auto m =
       truth::measure_ballbar(*machine.report, path, identification::instrument(machine, "ballbar"));
   const auto r = circular_tests::circle_report(o.plane, path.radius, m.ccw, m.cw);
-  write_plot(o.plot, ballbar_picture(m, machine.name + ", plane " + o.plane), json);
+  write_plot(o.plot, report::ballbar_picture(m, machine.name + ", plane " + o.plane), json);
   if (json) {
     auto out = report_json(r);
     out["machine"] = machine.name, out["ccw"] = readings_json(m.ccw), out["cw"] = readings_json(m.cw);
@@ -96,7 +96,7 @@ int laser(const MeasureOptions& o, bool json) {
                                       identification::instrument(machine, angle ? "laser_angle" : "laser"));
   const double unit = angle ? urad : um;
   const char* name = angle ? "urad" : "um";
-  write_plot(o.plot, laser_picture(m, machine.name + " " + o.error, unit, name), json);
+  write_plot(o.plot, report::laser_picture(m, machine.name + " " + o.error, unit, name), json);
   const auto& a = m.accuracy;
   const std::pair<const char*, double> figures[] = {{"accuracy_A", a.accuracy},
                                                     {"systematic_E", a.systematic},

@@ -6,7 +6,7 @@
 
 #include "truth/measurement.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::report {
 
 /// Three planes through the middle of the travel (XY, XZ, YZ), rotary axes at zero: the grid of the travel,
 /// and the same grid with the deviation of the tip magnified. SVG.
@@ -20,4 +20,4 @@ std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std
 std::string laser_picture(const truth::LaserMeasurement& measured, const std::string& title, double unit,
                           const std::string& unit_name);
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::report

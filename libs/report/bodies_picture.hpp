@@ -6,11 +6,11 @@
 
 #include "collision/collision_model.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::report {
 
 /// The outlines of all bodies with the axes at `position`, seen from the front (XZ), from the side (YZ) and
 /// from above (XY), with the two points of the nearest pair. SVG; the same inputs give the same bytes.
 std::string bodies_picture(const collision::CollisionModel& model, const collision::AxisPosition& position,
                            const std::string& title);
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::report

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "truth_picture.hpp"
+#include "report/truth_pictures.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include "geometry/angle.hpp"
 #include "report/plot.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::report {
 namespace {
 
 constexpr int cells = 8, steps = 5;  // steps of a curve in each cell
@@ -70,21 +70,21 @@ std::string truth_picture(const truth::PoseReport& report, const truth::MachineO
     smallest_travel = std::min(smallest_travel, machine.axes[plane.up].high - machine.axes[plane.up].low);
   }
   const double magnification =
-      largest > 1e-9 ? report::round_down(longest_error * std::max(smallest_travel, 1.0) / largest) : 1;
-  std::string content = report::text(left, 24, title, "font-size=\"15\" font-weight=\"600\"");
+      largest > 1e-9 ? round_down(longest_error * std::max(smallest_travel, 1.0) / largest) : 1;
+  std::string content = text(left, 24, title, "font-size=\"15\" font-weight=\"600\"");
   const auto line = fmt::format("deviation of the tip magnified {:.0f} times; largest in a plane: {:.1f} um",
                                 magnification, largest * 1e3);
-  content += report::text(left, 42, line);
+  content += text(left, 42, line);
   double x = left;
   for (const auto& plane : planes) {
     const auto range = [&](std::size_t axis) {
       const double margin = 0.12 * std::max(machine.axes[axis].high - machine.axes[axis].low, 1.0);
-      return report::Range{machine.axes[axis].low - margin, machine.axes[axis].high + margin};
+      return Range{machine.axes[axis].low - margin, machine.axes[axis].high + margin};
     };
-    report::Plot plot(x, top, side, side, range(plane.across), range(plane.up));
+    Plot plot(x, top, side, side, range(plane.across), range(plane.up));
     plot.labels(plane.across_name, plane.up_name);
     every_line(plane, [&](const std::vector<GridPoint>& points) {
-      std::vector<report::PlotPoint> ideal, actual;
+      std::vector<PlotPoint> ideal, actual;
       for (const auto& p : points) {
         ideal.push_back({p.x, p.y});
         actual.push_back({p.x + magnification * p.error_x, p.y + magnification * p.error_y});
@@ -95,7 +95,7 @@ std::string truth_picture(const truth::PoseReport& report, const truth::MachineO
     content += plot.svg();
     x += side + gap;
   }
-  return report::document(x - gap + 30, top + side + 60, content);
+  return document(x - gap + 30, top + side + 60, content);
 }
 
 std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std::string& title) {
@@ -103,10 +103,10 @@ std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std
   for (const auto* circle : {&measured.ccw, &measured.cw})
     for (const auto& reading : *circle) largest = std::max(largest, std::abs(reading.deviation));
   // Of a radius of 1 the largest deviation takes a third.
-  const double division = report::round_down(largest * 1e3), magnification = 0.33 / largest;
-  report::Plot plot(40, 60, 460, 460, {-1.45, 1.45}, {-1.45, 1.45});
+  const double division = round_down(largest * 1e3), magnification = 0.33 / largest;
+  Plot plot(40, 60, 460, 460, {-1.45, 1.45}, {-1.45, 1.45});
   const auto circle = [&](double radius, const char* style) {
-    std::vector<report::PlotPoint> points;
+    std::vector<PlotPoint> points;
     for (int i = 0; i <= 180; ++i) {
       const auto [s, c] = geometry::sine_cosine(2.0 * i);
       points.push_back({radius * c, radius * s});
@@ -115,7 +115,7 @@ std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std
   };
   for (int k = -3; k <= 3; ++k) circle(1 + 1e-3 * division * k * magnification, ideal_style);
   const auto trace = [&](const std::vector<circular_tests::RadialReading>& readings, const char* style) {
-    std::vector<report::PlotPoint> points;
+    std::vector<PlotPoint> points;
     for (std::size_t i = 0; i < readings.size(); i += readings.size() / most_circle_points + 1) {
       const auto& reading = readings[i];
       const auto [s, c] = geometry::sine_cosine(reading.angle);
@@ -129,23 +129,23 @@ std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std
   trace(measured.cw, second_style);
   const auto line =
       fmt::format("red counter-clockwise, blue clockwise; {:g} um for each circle of the grid", division);
-  return report::document(540, 580,
-                          report::text(40, 24, title, "font-size=\"15\" font-weight=\"600\"") +
-                              report::text(40, 42, line) + plot.svg());
+  return document(
+      540, 580,
+      text(40, 24, title, "font-size=\"15\" font-weight=\"600\"") + text(40, 42, line) + plot.svg());
 }
 
 std::string laser_picture(const truth::LaserMeasurement& measured, const std::string& title, double unit,
                           const std::string& unit_name) {
-  report::Range x{measured.targets.front().position, measured.targets.back().position}, y{0, 0};
+  Range x{measured.targets.front().position, measured.targets.back().position}, y{0, 0};
   for (const auto& target : measured.targets)
     for (const auto* values : {&target.up, &target.down})
       for (const double value : *values) y = {std::min(y.low, value * unit), std::max(y.high, value * unit)};
   const double margin = std::max(0.1 * y.span(), 1e-3);
   y = {y.low - margin, y.high + margin};
-  report::Plot plot(80, 60, 620, 320, x, y);
+  Plot plot(80, 60, 620, 320, x, y);
   plot.labels("mm", unit_name);
   for (std::size_t run = 0; run < measured.targets.front().up.size(); ++run) {
-    std::vector<report::PlotPoint> up, down;
+    std::vector<PlotPoint> up, down;
     for (const auto& target : measured.targets) {
       up.push_back({target.position, target.up[run] * unit});
       down.push_back({target.position, target.down[run] * unit});
@@ -153,9 +153,9 @@ std::string laser_picture(const truth::LaserMeasurement& measured, const std::st
     plot.curve(up, true_style);
     plot.curve(down, second_style);
   }
-  return report::document(740, 440,
-                          report::text(80, 24, title, "font-size=\"15\" font-weight=\"600\"") +
-                              report::text(80, 42, "red up, blue down") + plot.svg());
+  return document(740, 440,
+                  text(80, 24, title, "font-size=\"15\" font-weight=\"600\"") +
+                      text(80, 42, "red up, blue down") + plot.svg());
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::report

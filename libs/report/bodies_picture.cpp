@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bodies_picture.hpp"
+#include "report/bodies_picture.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,10 @@
 #include "geometry/angle.hpp"
 #include "report/plot.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::report {
 namespace {
 
 using collision::Vec3;
-using report::PlotPoint;
 
 constexpr double view_side = 300, view_left = 85, view_gap = 90, view_top = 90;  // pixels
 constexpr int around = 36, rings = 18;                                           // points of a round outline
@@ -88,9 +87,7 @@ std::string bodies_picture(const collision::CollisionModel& model, const collisi
   }
   const double extent = std::max(1.0, (high - low).maxCoeff()) * (1 + 2 * margin);
   const Vec3 middle = (low + high) / 2;
-  const auto range = [&](int axis) {
-    return report::Range{middle[axis] - extent / 2, middle[axis] + extent / 2};
-  };
+  const auto range = [&](int axis) { return Range{middle[axis] - extent / 2, middle[axis] + extent / 2}; };
   const auto nearest = model.nearest(position);
   struct View {
     int across, up;
@@ -99,14 +96,12 @@ std::string bodies_picture(const collision::CollisionModel& model, const collisi
   constexpr View views[]{{0, 2, "from the front", "X mm", "Z mm"},
                          {1, 2, "from the side (+X)", "Y mm", "Z mm"},
                          {0, 1, "from above", "X mm", "Y mm"}};
-  std::string content =
-      report::text(view_left, 24, report::escaped(title), "font-size=\"15\" font-weight=\"600\"");
+  std::string content = text(view_left, 24, escaped(title), "font-size=\"15\" font-weight=\"600\"");
   if (nearest)
-    content += report::text(view_left, 44, report::escaped("nearest pair: " + model.text_of(*nearest)),
-                            "fill=\"#cf222e\"");
+    content += text(view_left, 44, escaped("nearest pair: " + model.text_of(*nearest)), "fill=\"#cf222e\"");
   double x = view_left;
   for (const View& view : views) {
-    report::Plot plot(x, view_top, view_side, view_side, range(view.across), range(view.up));
+    Plot plot(x, view_top, view_side, view_side, range(view.across), range(view.up));
     plot.title(view.title);
     plot.labels(view.across_name, view.up_name);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -129,13 +124,12 @@ std::string bodies_picture(const collision::CollisionModel& model, const collisi
     const auto& name = model.bodies()[i].name;
     const double width = 30 + 8.0 * static_cast<double>(name.size());
     if (at + width > x) at = view_left, row += 20;
-    content +=
-        report::line(at, row - 4, at + 14, row - 4,
-                     std::string("stroke=\"") + colours[i % std::size(colours)] + "\" stroke-width=\"6\"");
-    content += report::text(at + 18, row, report::escaped(name));
+    content += line(at, row - 4, at + 14, row - 4,
+                    std::string("stroke=\"") + colours[i % std::size(colours)] + "\" stroke-width=\"6\"");
+    content += text(at + 18, row, escaped(name));
     at += width;
   }
-  return report::document(x, row + 20, content);
+  return document(x, row + 20, content);
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::report
