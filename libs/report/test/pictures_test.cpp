@@ -45,7 +45,7 @@ TEST(LaserPictures, DrawEveryRun) {
 TEST(ResidualPictures, DrawBeforeAndAfter) {
   calibration::KinematicsResult result;
   result.poses.resize(3);
-  result.poses[1].difference = {0.02, 0, 0};
+  result.poses[1].difference = calibration::Vec3(0.02, 0, 0);
   const auto svg = residual_picture(result, "a & b");
   EXPECT_EQ(curves_of(svg), 6u);
   EXPECT_THAT(svg, HasSubstr(">pose</text>"));
