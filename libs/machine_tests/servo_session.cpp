@@ -1,49 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "servo_session.hpp"
+#include "machine_tests/servo_session.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <csignal>
+#include <chrono>
 #include <cstdio>
+#include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::machine_tests {
 
 using idl::channel::CommandKind;
 using idl::servo::TestPhase;
-using servo_analysis::AxisTrace;
 
 namespace {
 
 constexpr const char* servo_program = "servo-test.tmp.nc";
 constexpr double servo_answer_time = 30, longest_motion = 600;  // s of wall time
 constexpr int most_runs = 4;                                    // of a test whose samples are lost
-constexpr std::size_t columns = 8;                              // of a sample of idl/servo.idl
-
-std::atomic<bool> interrupted{false};
 
 void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
-
-void append(AxisTrace& t, const double* v) {
-  t.setpoint.push_back(v[0]), t.feedback.push_back(v[1]), t.speed_set.push_back(v[2]);
-  t.speed.push_back(v[3]), t.torque.push_back(v[4]), t.excitation.push_back(v[5]);
-  t.motor.push_back(v[6]), t.load.push_back(v[7]);
-}
 
 }  // namespace
 
 ServoSession::ServoSession(const std::string& machine, std::optional<std::uint32_t> domain,
-                           std::uint16_t channel)
-    : client_id_(service::make_client_id()) {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = true; };
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-  cluster_.emplace(machine, domain);
-  client_ = std::make_unique<cluster::Client>(cluster_->running().run.domain);
+                           std::uint16_t channel, std::function<bool()> interrupted)
+    : interrupted_(std::move(interrupted)), cluster_(machine, domain), client_id_(service::make_client_id()) {
+  client_ = std::make_unique<cluster::Client>(cluster_.running().run.domain);
   auto& bus = client_->bus();
   samples_ = std::make_unique<bus::Reader<idl::servo::TestSamples>>(bus.reader(topics::servo_test_samples));
   requests_ = std::make_unique<bus::Writer<idl::servo::TestRequest>>(bus.writer(topics::servo_test_request));
@@ -59,7 +45,7 @@ ServoSession::~ServoSession() {
     channel_->hold();
     end_test(nullptr);
     channel_->end();
-    if (!cluster_->own()) channel_->restore();
+    if (!cluster_.own()) channel_->restore();
   } catch (const std::exception& e) {
     std::fprintf(stderr, "trunnion: after the servo test: %s\n", e.what());
   }
@@ -107,7 +93,7 @@ void ServoSession::renew() {
 
 void ServoSession::check() {
   renew();
-  if (interrupted)
+  if (interrupted_ && interrupted_())
     throw std::runtime_error("interrupted: the axes are stopped, the parameters are those of before");
   for (idl::service::Alarm a; alarms_->take(a);)
     if (channel_->moves() && a.active && a.severity >= idl::service::Severity::ERROR)
@@ -153,17 +139,7 @@ bool ServoSession::take_samples(SessionResult& result) {
       testing_ = false;
       throw std::runtime_error("the drive refuses the test: " + s.reason);
     }
-    if (s.first != expected_) result.lost = true, expected_ = s.first;
-    if (result.phase != TestPhase::ENDED_BY_VIBRATION) result.phase = s.phase;
-    result.vibration = std::max(result.vibration, s.vibration);
-    const std::size_t n = s.axes.size();
-    result.traces.resize(n);
-    for (std::size_t k = 0; k * columns < s.values.size(); ++k)
-      append(result.traces[k % n], &s.values[k * columns]);
-    for (auto& t : result.traces) t.interval = s.interval;
-    expected_ += s.values.size() / columns / n;
-    ended = ended || s.phase == TestPhase::COMPLETED || s.phase == TestPhase::ENDED_BY_CLIENT ||
-            s.phase == TestPhase::ENDED_BY_STOP;
+    ended = add_samples(result, expected_, s) || ended;
   }
   return ended;
 }
@@ -269,4 +245,4 @@ servo_analysis::MotionResult SessionAxisUnderTest::move(const servo_analysis::Se
   return {result.phase == TestPhase::ENDED_BY_VIBRATION, result.vibration, std::move(result.traces[0])};
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::machine_tests

@@ -3,19 +3,20 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bus/json.hpp"
+#include "machine_tests/servo_session.hpp"
 #include "servo_analysis/test_findings.hpp"
-#include "servo_session.hpp"
+#include "servo_analysis/test_picture.hpp"
 
-namespace trunnion::cli {
-
-using servo_analysis::TestFigure;
+namespace trunnion::machine_tests {
 
 struct TestReport : servo_analysis::TestFindings {
   std::string test;
-  bus::Json details;    ///< further content of --json
-  std::string picture;  ///< SVG
+  bus::Json details;  ///< what the figures follow from
+  servo_analysis::TestPicture picture;
 };
 
 struct TestOptions {
@@ -41,4 +42,4 @@ TestReport test_friction(ServoSession& session, const TestOptions& options);
 /// 10a932.
 TestReport test_encoders(ServoSession& session, const TestOptions& options);
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::machine_tests

@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,10 +14,11 @@
 #include "cluster/machine_session.hpp"
 #include "cluster/session_cluster.hpp"
 #include "machine/parameters.hpp"
+#include "machine_tests/test_samples.hpp"
 #include "servo_analysis/axis_tuning.hpp"
 #include "servo_analysis/test_programs.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::machine_tests {
 
 using servo_analysis::TestedAxis;
 
@@ -24,21 +27,15 @@ struct SamplesLost : std::runtime_error {
   SamplesLost() : std::runtime_error("samples of the drive were lost: this computer is too slow") {}
 };
 
-struct SessionResult {
-  idl::servo::TestPhase phase = idl::servo::TestPhase::COMPLETED;
-  double vibration = 0;                           ///< mm or deg
-  bool lost = false;                              ///< samples are missing
-  std::vector<servo_analysis::AxisTrace> traces;  ///< by the axes of the request
-};
-
 /// Takes the channel of a machine at rest. When it ends, however that is, the drive's test has ended, the
-/// channel has its mode and its selected program again, and nothing is left in the program store. Ctrl-C, an
-/// alarm and a hold end a test with std::runtime_error.
+/// channel has its mode and its selected program again, and nothing is left in the program store. An
+/// interruption, an alarm and a hold end a test with std::runtime_error.
 class ServoSession {
  public:
   /// `machine` empty: the cluster that runs; else a cluster of this machine in virtual time, which ends with
-  /// the session.
-  ServoSession(const std::string& machine, std::optional<std::uint32_t> domain, std::uint16_t channel);
+  /// the session. `interrupted` says whether the operator wants the end; it may be empty.
+  ServoSession(const std::string& machine, std::optional<std::uint32_t> domain, std::uint16_t channel,
+               std::function<bool()> interrupted);
   ~ServoSession();
   ServoSession(const ServoSession&) = delete;
   ServoSession& operator=(const ServoSession&) = delete;
@@ -47,8 +44,8 @@ class ServoSession {
   const TestedAxis& axis(const std::string& letter) const;
   const std::vector<TestedAxis>& axes() const { return axes_; }
   const machine::Parameters& parameters() const { return parameters_; }
-  const std::string& machine() const { return cluster_->running().machine; }
-  const std::string& machine_directory() const { return cluster_->running().machine_directory; }
+  const std::string& machine() const { return cluster_.running().machine; }
+  const std::string& machine_directory() const { return cluster_.running().machine_directory; }
 
   /// Length of tool `number` with its wear, mm. Throws std::runtime_error when there is no such tool.
   double tool_length(std::uint32_t number);
@@ -73,7 +70,8 @@ class ServoSession {
   void check();
   void renew();
 
-  std::optional<cluster::SessionCluster> cluster_;
+  std::function<bool()> interrupted_;
+  cluster::SessionCluster cluster_;
   std::unique_ptr<cluster::Client> client_;
   std::optional<cluster::MachineSession> channel_;
   std::unique_ptr<bus::Writer<idl::servo::TestRequest>> requests_;
@@ -103,4 +101,4 @@ class SessionAxisUnderTest : public servo_analysis::AxisUnderTest {
   const TestedAxis* partner_;
 };
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::machine_tests

@@ -2,15 +2,17 @@
 // Servo tests that look into the loops: current, frequency response, friction, encoders.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 #include "machine/parameter_constants.hpp"
-#include "servo_pictures.hpp"
-#include "servo_test_parts.hpp"
+#include "machine_tests/servo_test_parts.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::machine_tests {
 
 using idl::servo::TestRequest;
 using idl::servo::TestSignal;
+using servo_analysis::over_time;
 using servo_analysis::per_minute;
 
 TestReport test_current(ServoSession& session, const TestOptions& o) {
@@ -24,9 +26,11 @@ TestReport test_current(ServoSession& session, const TestOptions& o) {
   if (result.traces.empty()) throw std::runtime_error("the drive gave no samples");
   const auto& t = result.traces[0];
   auto r = report_of("current", servo_analysis::current_findings(servo_analysis::current_time_constant(t)));
-  r.picture = curves_picture(
-      picture_title(session, a, "current loop"), "s", "share of the rated torque",
-      {over_time("excitation", t.excitation, t.interval, 1), over_time("torque", t.torque, t.interval, 1)});
+  r.picture = picture_of(
+      session, a, "current loop",
+      {"s",
+       "share of the rated torque",
+       {over_time("excitation", t.excitation, t.interval, 1), over_time("torque", t.torque, t.interval, 1)}});
   return r;
 }
 
@@ -34,7 +38,7 @@ TestReport test_frequency(ServoSession& session, const TestOptions& o) {
   const auto& a = only_axis(session, o);
   constexpr double period = 1;  // s: lines of 1 Hz
   constexpr int periods = 3;
-  const double feed = feed_of(a, o, 600), v = feed / per_minute;
+  const double feed = feed_of(a, o.feed, 600), v = feed / per_minute;
   TestRequest q = samples_of({a.number}, 1);
   q.signal = TestSignal::SPEED_CHIRP;
   // Less than the speed of the motion: friction keeps its direction, the loop stays linear.
@@ -61,8 +65,8 @@ TestReport test_frequency(ServoSession& session, const TestOptions& o) {
     r.details["response"].push_back(
         {open[i].frequency, 20 * std::log10(std::abs(open[i].value)), std::arg(open[i].value) * 180 / M_PI,
          20 * std::log10(std::abs(closed[i].value)), std::arg(closed[i].value) * 180 / M_PI});
-  r.picture =
-      bode_picture(picture_title(session, a, position ? "position loop" : "speed loop"), closed, open);
+  r.picture = {session.machine() + ", axis " + a.letter + (position ? ": position loop" : ": speed loop"),
+               servo_analysis::BodeDiagram{closed, open}};
   return r;
 }
 
@@ -78,14 +82,14 @@ TestReport test_friction(ServoSession& session, const TestOptions& o) {
   }
   const auto f = servo_analysis::identify_friction(points);
   auto r = report_of("friction", servo_analysis::friction_findings(a, f, inertia));
-  PictureCurve measured{"torque at constant speed", {}};
+  servo_analysis::Curve measured{"torque at constant speed", {}};
   std::sort(points.begin(), points.end(), [](const auto& p, const auto& q) { return p.speed < q.speed; });
   for (const auto& p : points) {
     measured.points.push_back({p.speed, p.torque});
     r.details["points"].push_back({p.speed, p.torque});
   }
-  r.picture = curves_picture(picture_title(session, a, "friction"), a.length_unit() + "/s",
-                             "of the rated torque", {measured});
+  r.picture = picture_of(session, a, "friction",
+                         {a.length_unit() + "/s", "of the rated torque", {std::move(measured)}});
   return r;
 }
 
@@ -98,15 +102,17 @@ TestReport test_encoders(ServoSession& session, const TestOptions& o) {
                              " is 1: compare the encoders in semi-closed loop (0)");
   const double travel = std::abs(p.get(parameter::travel_per_revolution, a.number)) / 1000;
   const auto result = session.run(samples_of({a.number}, 8),
-                                  to_and_fro_program(a, a.into_travel(travel), feed_of(a, o, 300), 2));
+                                  to_and_fro_program(a, a.into_travel(travel), feed_of(a, o.feed, 300), 2));
   if (result.traces.empty() || result.traces[0].size() < 2)
     throw std::runtime_error("the drive gave no samples of the motion");
   const auto& t = result.traces[0];
   auto r = report_of("encoders", servo_analysis::encoder_findings(p, a, servo_analysis::compare_encoders(t)));
   r.picture =
-      curves_picture(picture_title(session, a, "encoders"), "s", a.length_unit(),
-                     {over_time("motor", t.motor, t.interval, 1), over_time("load", t.load, t.interval, 1)});
+      picture_of(session, a, "encoders",
+                 {"s",
+                  a.length_unit(),
+                  {over_time("motor", t.motor, t.interval, 1), over_time("load", t.load, t.interval, 1)}});
   return r;
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::machine_tests

@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ball_motion.hpp"
+#include "machine_tests/ball_test.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <utility>
 
 #include "canonical/axes.hpp"
-#include "figures.hpp"
 #include "identification/true_tips.hpp"
 #include "machine/kinematics.hpp"
+#include "machine_tests/sampled_motion.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::machine_tests {
 namespace {
 
 using canonical::axis_letters;
+using identification::BallSample;
+using servo_analysis::ChannelMotion;
+using truth::Vec3;
+
 constexpr std::uint16_t turn_decimation = 4, stop_decimation = 40;  // 2 kHz, 200 Hz
 constexpr double share_of_travel = 0.9;
 
@@ -28,7 +34,7 @@ geometry::Chain chain_of(const ServoSession& session, std::uint16_t channel) {
 BallTest::BallTest(ServoSession& session, const BallOptions& options)
     : session_(session),
       options_(options),
-      machine_(load_true_machine(session.machine_directory(), options.channel, {})),
+      machine_(identification::load_true_machine(session.machine_directory(), options.channel, {})),
       set_{machine_.outline, chain_of(session, options.channel)} {
   const auto& axis = session_.axis(options_.axis);
   set_.axis = axis_letters.find(axis.letter);
@@ -37,19 +43,9 @@ BallTest::BallTest(ServoSession& session, const BallOptions& options)
   for (const auto& a : session_.axes())
     if (const auto index = axis_letters.find(a.letter); index > 2 && index < axis_letters.size())
       set_.held[index - 3] = a.place;
-  for (const auto& word : options_.hold) {
-    const auto index = word.empty() ? std::string_view::npos : axis_letters.find(word[0]);
-    std::size_t used = 0;
-    double value = 0;
-    try {
-      value = std::stod(word.substr(std::min<std::size_t>(1, word.size())), &used);
-    } catch (const std::exception&) {
-    }
-    if (index == std::string_view::npos || index < 3 || !set_.model.turns(index - 3) || index == set_.axis ||
-        used + 1 != word.size())
+  for (const auto& word : options_.hold)
+    if (!identification::hold_axis(set_, word))
       throw std::runtime_error("--hold " + word + ": expected another rotary axis and its angle, as A-30");
-    set_.held[index - 3] = value;
-  }
   set_.tool_length = session_.tool_length(options_.tool);
   const double low = axis.low, high = axis.high;
   const bool endless = !(high - low < 360);
@@ -61,39 +57,24 @@ BallTest::BallTest(ServoSession& session, const BallOptions& options)
                     axis.letter, start_, start_ + set_.sweep, low, high));
   find_circle();
   check_travel(start_);
-  auto report =
-      std::make_unique<truth::PoseReport>(machine_.report->geometry(), set_.model, machine_.outline);
-  report->tool_length = set_.tool_length;
-  report->temperatures = machine_.report->temperatures;
-  machine_.report = std::move(report);
+  take_model(machine_, session_.parameters(), options_.channel);
+  machine_.report->tool_length = set_.tool_length;
   sensor_.emplace(options_.source == "true" ? identification::instrument(machine_, "rtest")
                                             : truth::InstrumentTruth{});
 }
 
 void BallTest::find_circle() {
-  identification::WantedBall wanted{std::nullopt, options_.radius, options_.height};
-  if (!options_.ball.empty()) wanted.place = coordinates("--ball", options_.ball);
-  Vec3 here = Vec3::Zero();
-  for (const auto& a : session_.axes())
-    if (a.letter >= 'X' && a.letter <= 'Z') here[a.letter - 'X'] = a.place;
-  if (const auto error = identification::place_ball(set_, wanted, start_, here))
+  if (const auto error = identification::place_ball(set_, options_.ball, start_, linear_place(session_)))
     throw std::runtime_error("--axis " + options_.axis +
                              ": the ball has no circle about the axis: " + metrology::to_string(*error));
 }
 
 void BallTest::check_travel(double start) const {
-  for (int k = 0; k <= 72; ++k) {
-    const double angle = start + set_.sweep * k / 72;
-    const Vec3 place = identification::place_at(set_, angle);
-    for (int i = 0; i < 3; ++i) {
-      const auto& a = session_.axis(std::string(1, static_cast<char>('X' + i)));
-      if (place[i] >= a.low && place[i] <= a.high) continue;
-      throw std::runtime_error(
-          fmt::format("axis {} would go to {:.3f} mm at {}{:.1f}, its travel is {:.3f} .. {:.3f}: choose "
-                      "--ball, --radius, --start or --sweep",
-                      a.letter, place[i], options_.axis[0], angle, a.low, a.high));
-    }
-  }
+  if (const auto left = identification::left_travel(set_, linear_axes(session_), start))
+    throw std::runtime_error(fmt::format(
+        "axis {} would go to {:.3f} mm at {}{:.1f}, its travel is {:.3f} .. {:.3f}: choose "
+        "--ball, --radius, --start or --sweep",
+        left->axis.letter, left->place, options_.axis[0], left->angle, left->axis.low, left->axis.high));
 }
 
 ChannelMotion BallTest::sampled(const std::string& program, std::uint16_t decimation) {
@@ -148,4 +129,4 @@ std::vector<BallSample> BallTest::stop(std::size_t stops, double start) {
   return means;
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::machine_tests

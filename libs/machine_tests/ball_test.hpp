@@ -3,25 +3,22 @@
 // turns, and three displacement sensors that read the tip's deviation from it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "channel_motion.hpp"
 #include "identification/ball_setting.hpp"
-#include "true_machine.hpp"
+#include "identification/true_machine.hpp"
+#include "machine_tests/servo_session.hpp"
 
-namespace trunnion::cli {
-
-using identification::BallSample;
-using truth::Vec3;
+namespace trunnion::machine_tests {
 
 struct BallOptions {
-  std::string machine, axis = "C", ball, source = "true", plot;
-  double radius = 72.411, height = 50;  ///< mm, of the ball about the axis and along it, without `ball`
-  double feed = 2000;                   ///< mm/min along the circle of the ball
-  std::optional<double> start, sweep;   ///< deg
-  std::vector<std::string> hold;        ///< A-30: another rotary axis stands there
+  std::string axis = "C", source = "true";  ///< true: sensors on the true machine; encoder: position loops
+  identification::WantedBall ball;
+  std::optional<double> start, sweep;  ///< deg
+  std::vector<std::string> hold;       ///< A-30: another rotary axis stands there
   std::uint32_t tool = 1;
   std::uint16_t channel = 0;
 };
@@ -40,7 +37,7 @@ class BallTest {
   /// A turn to and one back at `feed` mm/min along the circle from `start` deg, sampled at 2 kHz.
   BallMotion run(double feed, double start);
   /// `stops` stops at equal angles of the turn from `start`, each the mean of 0.1 s.
-  std::vector<BallSample> stop(std::size_t stops, double start);
+  std::vector<identification::BallSample> stop(std::size_t stops, double start);
 
   const identification::TurnedBall& set() const { return set_; }
   double start() const { return start_; }
@@ -49,17 +46,18 @@ class BallTest {
   void find_circle();
   void check_travel(double start) const;
   identification::BallProgram program() const { return {session_.axes(), options_.tool}; }
-  ChannelMotion sampled(const std::string& program, std::uint16_t decimation);
-  std::vector<BallSample> read(const ChannelMotion& motion, const identification::PredictedMotion* predicted);
-  identification::BallTurn turned_by(double way, const std::vector<BallSample>& samples,
+  servo_analysis::ChannelMotion sampled(const std::string& program, std::uint16_t decimation);
+  std::vector<identification::BallSample> read(const servo_analysis::ChannelMotion& motion,
+                                               const identification::PredictedMotion* predicted);
+  identification::BallTurn turned_by(double way, const std::vector<identification::BallSample>& samples,
                                      double interval) const;
 
   ServoSession& session_;
   BallOptions options_;
-  TrueMachine machine_;
+  identification::TrueMachine machine_;
   identification::TurnedBall set_;
   double start_ = 0;
   std::optional<truth::Instrument> sensor_;
 };
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::machine_tests
