@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "report/residual_picture.hpp"
+#include "report/servo_pictures.hpp"
 #include "report/truth_pictures.hpp"
 
 namespace trunnion::report {
@@ -49,6 +52,28 @@ TEST(ResidualPictures, DrawBeforeAndAfter) {
   const auto svg = residual_picture(result, "a & b");
   EXPECT_EQ(curves_of(svg), 6u);
   EXPECT_THAT(svg, HasSubstr(">pose</text>"));
+}
+
+// Of 9000 points every third is drawn, so the last one, number 8997, is behind 2999 others.
+TEST(ServoPictures, DrawAtMostFourThousandPointsOfACurve) {
+  const auto curve = servo_analysis::over_time("speed", std::vector<double>(9000, 1.0), 0.001, 60);
+  EXPECT_EQ(curve.points.back().y, 60);
+  const auto svg = picture_of("X & Y", servo_analysis::Diagram{"s", "mm/min", {curve}});
+  EXPECT_EQ(curves_of(svg), 1u);
+  const auto begin = svg.find(" points=\""), end = svg.find("\"/>", begin);
+  const auto points = svg.substr(begin, end - begin);
+  EXPECT_EQ(std::count(points.begin(), points.end(), ','), 3000);
+  EXPECT_THAT(svg, HasSubstr(">speed</text>"));
+}
+
+// Seven circles of the grid, that of the deviations and four lines at the quadrants.
+TEST(ServoPictures, ShowWhatATestHasToShow) {
+  servo_analysis::RoundnessFigures circle;
+  for (int i = 0; i < 360; ++i) circle.points.push_back({static_cast<double>(i), 0.001});
+  circle.quadrant_jump[1] = 0.0025;
+  const auto svg = picture_of(servo_analysis::TestPicture{"roundness XY", circle});
+  EXPECT_EQ(curves_of(svg), 12u);
+  EXPECT_THAT(svg, HasSubstr(">2.5 um</text>"));
 }
 
 }  // namespace
