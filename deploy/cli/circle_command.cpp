@@ -85,14 +85,15 @@ CircleRun run_on_machine(const CircleOptions& o, const Common& common) {
 identification::CircleTest evaluated(const CircleOptions& o, const CircleRun& run) {
   const auto plane = circular_tests::plane_of(o.plane);
   if (o.source != "true")
-    return identification::evaluate_circle(run.motion, o.plane, run.circle, identification::encoder_points(run.motion, plane),
-                           {});
+    return identification::evaluate_circle(run.motion, o.plane, run.circle,
+                                           identification::encoder_points(run.motion, plane), {});
   auto machine = load_true_machine(run.directory, o.channel, {});
   take_model(machine, run.parameters, o.channel);
   machine.report->tool_length = o.tool_length;
-  return identification::evaluate_circle(run.motion, o.plane, run.circle,
-                         identification::true_points(run.motion, plane, run.circle, *machine.report),
-                         identification::instrument(machine, "ballbar"));
+  return identification::evaluate_circle(
+      run.motion, o.plane, run.circle,
+      identification::true_points(run.motion, plane, run.circle, *machine.report),
+      identification::instrument(machine, "ballbar"));
 }
 
 int measure_circle(const CircleOptions& o, const Common& common) {
