@@ -15,11 +15,11 @@
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "cluster/operating_station.hpp"
+#include "cluster/stored_program.hpp"
 #include "commands.hpp"
 #include "commands/channel_request.hpp"
 #include "interrupt_watch.hpp"
 #include "new_alarms.hpp"
-#include "stored_program.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -48,7 +48,7 @@ idl::channel::ChannelRequest request_of(cluster::Client& client, const ChannelOp
   auto request = commands::request_of(*command, options.arguments, letters);
   request.channel = options.channel;
   if (request.command == CommandKind::SELECT_PROGRAM)
-    if (const auto stored = find_program(client.newest(topics::program_list), request.program))
+    if (const auto stored = cluster::find_program(client.newest(topics::program_list), request.program))
       request.program = stored->name;
   return request;
 }

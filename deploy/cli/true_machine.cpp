@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "true_machine.hpp"
 
-#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,10 +11,6 @@ namespace trunnion::cli {
 TrueMachine load_true_machine(const std::string& machine, std::uint16_t channel,
                               const std::vector<std::string>& settings) {
   return identification::load_true_machine(machine_directory(machine), channel, settings);
-}
-
-bool has_truth(const std::string& machine) {
-  return std::filesystem::exists(machine_directory(machine) + "/truth.yaml");
 }
 
 truth::Vec3 coordinates(const std::string& option, const std::string& text) {

@@ -16,9 +16,6 @@ using identification::TrueMachine;
 TrueMachine load_true_machine(const std::string& machine, std::uint16_t channel,
                               const std::vector<std::string>& settings);
 
-/// Whether the machine's directory has a truth.yaml.
-bool has_truth(const std::string& machine);
-
 /// X,Y,Z in mm. Throws std::runtime_error that names the option.
 truth::Vec3 coordinates(const std::string& option, const std::string& text);
 

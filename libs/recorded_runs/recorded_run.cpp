@@ -1,35 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run.hpp"
+#include "recorded_runs/recorded_run.hpp"
 
-#include <unistd.h>
-
-#include <atomic>
-#include <csignal>
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 #include <tuple>
+#include <utility>
 
 #include "cluster/child_process.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "cluster/machine_session.hpp"
+#include "cluster/stored_program.hpp"
+#include "identification/true_machine.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/stream_settings.hpp"
 #include "machine_check/machine_check.hpp"
-#include "parameter_request.hpp"
+#include "recorded_runs/held_channels.hpp"
 #include "recording/file_stream.hpp"
 #include "report/capture.hpp"
 #include "service/network.hpp"
-#include "stored_program.hpp"
-#include "true_machine.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::recorded_runs {
 namespace fs = std::filesystem;
 namespace {
 
@@ -77,17 +78,9 @@ class Recorder {
   cluster::ChildProcess process_;
 };
 
-std::atomic<bool> run_interrupted{false};
-
-// Ctrl-C, SIGTERM and the end of the terminal end a run in order: its cluster does not outlive it.
-void watch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { run_interrupted = true; };
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
-}
-
-void stop_when_interrupted() {
-  if (run_interrupted) throw std::runtime_error("interrupted; the cluster of the run was stopped");
+void stop_when_interrupted(const RunNews& news) {
+  if (news.interrupted && news.interrupted())
+    throw std::runtime_error("interrupted; the cluster of the run was stopped");
 }
 
 class ClusterGuard {
@@ -130,7 +123,8 @@ std::string place_program(cluster::Client& client, const machine::MachineConfig&
     client.upload(name, read_file(program));
     return name;
   }
-  if (const auto stored = find_program(client.newest(topics::program_list), program)) return stored->name;
+  if (const auto stored = cluster::find_program(client.newest(topics::program_list), program))
+    return stored->name;
   throw std::runtime_error("program '" + program + "': no such file, and machine " + machine.name +
                            " has none of this name");
 }
@@ -144,27 +138,14 @@ void await_recorder(cluster::Client& client) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-void draw_progress(const std::vector<idl::channel::ChannelState>& states, double seconds) {
-  std::uint64_t cycle = 0;
-  std::string lines;
-  for (const auto& state : states) {
-    cycle = std::max(cycle, state.cycle);
-    lines += (lines.empty() ? "line " : ", ") + std::to_string(state.line) + " of " +
-             std::to_string(state.lines_total);
-  }
-  std::fprintf(stderr, "\r%s  cycle %llu  %.1f s ", lines.c_str(), static_cast<unsigned long long>(cycle),
-               seconds);
-  std::fflush(stderr);
-}
-
 // Searches the line; the cycle start that follows goes on from there. The program may as well have an alarm.
-void search_line(cluster::Client& client, std::uint32_t line) {
+void search_line(cluster::Client& client, std::uint32_t line, const RunNews& news) {
   client.start_from_line(0, line);
   auto states = client.reader_from_now(topics::channel_state);
   const double until = service::monotonic_seconds() + 60;
   bool failed = false;
   while (service::monotonic_seconds() < until && !failed) {
-    stop_when_interrupted();
+    stop_when_interrupted(news);
     idl::channel::ChannelState state;
     while (states.take(state)) {
       if (state.channel != 0) continue;
@@ -177,31 +158,6 @@ void search_line(cluster::Client& client, std::uint32_t line) {
                            " was not found: see the alarms of the recording");
 }
 
-// A run has no operator who sees that a program has stopped.
-class StopNotes {
- public:
-  StopNotes(cluster::Client& client, std::size_t channels) : client_(client), held_(channels) {}
-  /// Says once for each stop how it is continued. `bar`: a line of progress is on the terminal.
-  void look(const std::vector<idl::channel::ChannelState>& newest, bool bar) {
-    for (std::size_t c = 0; c < newest.size(); ++c) {
-      const auto& state = newest[c];
-      const bool held = state.state == RunState::HELD;
-      if (held && !held_[c])
-        std::fprintf(stderr,
-                     "%schannel %zu is stopped behind line %u (%s): 'trunnion channel start --channel %zu "
-                     "--domain %u' continues it, Ctrl-C ends the run\n",
-                     bar ? "\n" : "", c, static_cast<unsigned>(state.line),
-                     state.detail.empty() ? "M0, M1 or a feed hold" : state.detail.c_str(), c,
-                     static_cast<unsigned>(client_.newest(topics::cluster).domain));
-      held_[c] = held;
-    }
-  }
-
- private:
-  cluster::Client& client_;
-  std::vector<bool> held_;
-};
-
 struct Execution {
   std::string alarm;     // the first one, or empty
   bool starved = false;  // the drive has stopped because setpoints were missing
@@ -209,16 +165,17 @@ struct Execution {
 };
 
 // Starts every channel, or continues it, and waits until all are idle again.
-Execution execute(cluster::Client& client, std::size_t channels, const RunOptions& options, bool bar) {
+Execution execute(cluster::Client& client, std::size_t channels, const RunOptions& options) {
   const double timeout = options.timeout;
+  const auto& news = options.news;
   if (options.dry_run)
     for (std::uint16_t c = 0; c < channels; ++c)
       client.channel({.channel = c, .command = CommandKind::DRY_RUN, .on = true});
-  if (options.from_line != 0) search_line(client, options.from_line);
+  if (options.from_line != 0) search_line(client, options.from_line, news);
   auto alarms = client.bus().reader(topics::alarm);
   std::vector<idl::channel::ChannelState> newest(channels);
   std::vector<bool> done(channels);
-  StopNotes stops(client, channels);
+  HeldChannels held(channels);
   for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::CYCLE_START);
   auto states = client.reader_from_now(topics::channel_state);
   const double began = service::monotonic_seconds();
@@ -227,7 +184,7 @@ Execution execute(cluster::Client& client, std::size_t channels, const RunOption
   auto& alarm = result.alarm;
   while (std::find(done.begin(), done.end(), false) != done.end()) {
     client.bus().signal().wait(0.05);
-    stop_when_interrupted();
+    stop_when_interrupted(news);
     idl::channel::ChannelState state;
     while (states.take(state)) {
       if (state.channel >= channels) continue;
@@ -240,10 +197,12 @@ Execution execute(cluster::Client& client, std::size_t channels, const RunOption
       result.starved |= a.number == alarm::setpoint_missing.number;
       if (alarm.empty()) alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
     }
-    if (alarm.empty()) stops.look(newest, bar);
+    if (alarm.empty())
+      for (const auto c : held.newly(newest))
+        if (news.stopped) news.stopped(newest[c], client.newest(topics::cluster).domain);
     const double now = service::monotonic_seconds();
-    if (bar && now - drawn > 0.1) {
-      draw_progress(newest, now - began);
+    if (news.progress && now - drawn > 0.1) {
+      news.progress(newest, now - began);
       drawn = now;
     }
     const bool stuck = std::any_of(newest.begin(), newest.end(), [](const auto& s) {
@@ -256,10 +215,8 @@ Execution execute(cluster::Client& client, std::size_t channels, const RunOption
     }
   }
   result.ended = std::find(done.begin(), done.end(), false) == done.end();
-  if (bar) {
-    draw_progress(newest, service::monotonic_seconds() - began);
-    std::fprintf(stderr, "\n");
-  }
+  if (news.progress) news.progress(newest, service::monotonic_seconds() - began);
+  if (news.progress_end) news.progress_end();
   return result;
 }
 
@@ -285,11 +242,11 @@ void acknowledge(cluster::Client& client) {
 // As execute(), and goes on where the drive has stopped on the path because setpoints were missing, until
 // `until`: the starved periods in the recording say so.
 std::string execute_starved(cluster::Client& client, std::size_t channels, const RunOptions& options,
-                            bool bar, double until) {
-  auto execution = execute(client, channels, options, bar);
+                            double until) {
+  auto execution = execute(client, channels, options);
   while (execution.starved && !execution.ended && service::monotonic_seconds() < until) {
     acknowledge(client);
-    execution = execute(client, channels, options, bar);
+    execution = execute(client, channels, options);
   }
   return execution.starved ? "" : execution.alarm;
 }
@@ -313,9 +270,8 @@ cluster::UpOptions up_options(const std::string& directory, const RunOptions& op
 // Its cluster is stopped with the guard.
 ClusterGuard start_for(const std::string& directory, const RunOptions& options) {
   machine_check::require_good(directory);
-  watch_interrupts();
   ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
-  stop_when_interrupted();
+  stop_when_interrupted(options.news);
   return cluster;
 }
 
@@ -325,11 +281,12 @@ void select_first(cluster::Client& client, const machine::MachineConfig& machine
 }
 
 // As an import and a reset do.
-void set_parameters(cluster::Client& client, const std::map<std::uint32_t, machine::ParameterValue>& values) {
+void set_parameters(cluster::Client& client, const RunOptions& options) {
   idl::parameters::ParameterRequest request;
   request.operation = idl::parameters::Operation::IMPORT;
-  request.who = user_name() + " run";
-  for (const auto& [number, value] : values) request.values.push_back({number, value.value, value.text});
+  request.who = options.who;
+  for (const auto& [number, value] : options.parameters)
+    request.values.push_back({number, value.value, value.text});
   client.parameter(std::move(request));
   client.channel(0, CommandKind::RESET);
   const double until = service::monotonic_seconds() + activation_timeout;
@@ -346,8 +303,9 @@ void set_parameters(cluster::Client& client, const std::map<std::uint32_t, machi
 
 // Of a machine whose truth.yaml says what it is, else empty. The axes are cold.
 report::TrueTip true_tip(const std::string& machine, std::uint16_t channel) {
-  if (!has_truth(machine)) return {};
-  const std::shared_ptr<const truth::PoseReport> report = load_true_machine(machine, channel, {}).report;
+  if (!fs::exists(machine + "/truth.yaml")) return {};
+  const std::shared_ptr<const truth::PoseReport> report =
+      identification::load_true_machine(machine, channel, {}).report;
   return [report](const language::AxisValues& loads, const std::array<int, 9>& approach, double tool_length) {
     truth::MachinePose pose;
     pose.positions = loads;
@@ -369,27 +327,23 @@ RunResult run_programs(const RunOptions& options) {
   RunResult result;
   auto cluster = start_for(directory, options);
   result.start_seconds = cluster.get().start_seconds;
-  if (!options.quiet) {
-    std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.name.c_str(), result.start_seconds,
-                options.real_time ? "real" : "virtual", cluster.get().run.domain);
-    std::fflush(stdout);
-  }
+  if (options.news.ready) options.news.ready(machine.name, cluster.get());
   std::vector<std::string> names, texts;
   {
     // The recorder has found the stream's writers before the program is in its place.
     Recorder recorder(options.recording, cluster.get());
     cluster::Client client(cluster.get().run.domain);
     await_recorder(client);
-    if (!options.parameters.empty()) set_parameters(client, options.parameters);
+    if (!options.parameters.empty()) set_parameters(client, options);
     for (std::uint16_t c = 0; c < options.programs.size(); ++c) {
       names.push_back(place_program(client, machine, options.programs[c]));
       texts.push_back(client.download(names.back()));
       cluster::MachineSession(client, c).select(names.back());
     }
-    const bool bar = !options.quiet && isatty(2) != 0;
-    result.alarm = options.continue_starved ? execute_starved(client, options.programs.size(), options, bar,
+    const auto channels = options.programs.size();
+    result.alarm = options.continue_starved ? execute_starved(client, channels, options,
                                                               service::monotonic_seconds() + options.timeout)
-                                            : execute(client, options.programs.size(), options, bar).alarm;
+                                            : execute(client, channels, options).alarm;
     std::this_thread::sleep_for(
         std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
     recorder.stop();
@@ -422,8 +376,7 @@ RecordingCost measure_recording(const RunOptions& options, int rounds) {
     if (record) recorder.emplace(options.recording, cluster.get());
     const auto before = client.newest(topics::channel_state, 0).cycle;
     const double began = service::monotonic_seconds();
-    if (const auto alarm = execute(client, 1, options, false).alarm; !alarm.empty())
-      throw std::runtime_error(alarm);
+    if (const auto alarm = execute(client, 1, options).alarm; !alarm.empty()) throw std::runtime_error(alarm);
     const double seconds = service::monotonic_seconds() - began;
     recorder.reset();
     fs::remove(options.recording);
@@ -446,8 +399,7 @@ report::StreamTiming measure_real_time(const RunOptions& options, double seconds
   do {
     {
       Recorder recorder(options.recording, cluster.get());
-      const bool bar = !options.quiet && isatty(2) != 0;
-      if (const auto alarm = execute_starved(client, 1, options, bar, until); !alarm.empty())
+      if (const auto alarm = execute_starved(client, 1, options, until); !alarm.empty())
         throw std::runtime_error(alarm);
       recorder.stop();
     }
@@ -458,4 +410,4 @@ report::StreamTiming measure_real_time(const RunOptions& options, double seconds
   return timing;
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::recorded_runs

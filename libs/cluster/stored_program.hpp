@@ -9,7 +9,7 @@
 
 #include "contracts/types.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::cluster {
 
 /// The stored program `name`; "part" and "part.nc" are alike where only one of them is stored.
 inline std::optional<idl::program::ProgramEntry> find_program(const idl::program::ProgramList& list,
@@ -23,4 +23,4 @@ inline std::optional<idl::program::ProgramEntry> find_program(const idl::program
   return std::nullopt;
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::cluster

@@ -2,16 +2,34 @@
 // A whole run: a cluster of its own, a program for each channel, a recording, a report.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cluster/cluster.hpp"
 #include "cluster/executables.hpp"
+#include "contracts/types.hpp"
 #include "machine/parameters.hpp"
 #include "report/report.hpp"
 #include "report/stream_timing.hpp"
 
-namespace trunnion::cli {
+namespace trunnion::recorded_runs {
+
+/// What a run tells while it lasts, and asks; each may be empty.
+struct RunNews {
+  /// The cluster is ready.
+  std::function<void(const std::string& machine, const cluster::RunningCluster& cluster)> ready;
+  /// Every 0.1 s, by channel, `seconds` after the start of the programs, and at their end.
+  std::function<void(const std::vector<idl::channel::ChannelState>& newest, double seconds)> progress;
+  std::function<void()> progress_end;
+  /// A channel has stopped: a run has no operator who sees it.
+  std::function<void(const idl::channel::ChannelState& state, std::uint32_t domain)> stopped;
+  /// The run is to end.
+  std::function<bool()> interrupted;
+};
 
 struct RunOptions {
   std::string machine;
@@ -24,9 +42,10 @@ struct RunOptions {
   std::uint32_t from_line = 0;  ///< start from this line of the first program; 0 = from its top
   bool dry_run = false;
   bool continue_starved = false;  ///< after the drive has stopped because setpoints were missing
-  bool quiet = false;             ///< no progress
   double timeout = 3600;          ///< s of wall time
   std::optional<std::uint32_t> domain;
+  std::string who;  ///< sets the parameters, for the journal
+  RunNews news;
 };
 
 struct RunResult {
@@ -52,4 +71,4 @@ RecordingCost measure_recording(const RunOptions& options, int rounds);
 /// periods are counted and do not end it.
 report::StreamTiming measure_real_time(const RunOptions& options, double seconds);
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::recorded_runs
