@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies.hpp"
 
-#include <filesystem>
-
 #include "machine/chain_parameters.hpp"
-#include "machine/yaml.hpp"
 #include "src/bodies_document.hpp"
 #include "src/snapshot.hpp"
 
@@ -21,14 +18,11 @@ void answer_bodies(const Mailbox& mailbox, Worker& files, const std::string& dir
   const bool taken =
       files.offer([snapshot, directory, number = static_cast<std::uint16_t>(*number), respond] {
         try {
-          const auto file = directory + "/bodies.yaml";
-          const bool described = std::filesystem::exists(file);
-          auto bodies = collision::parse_bodies(described ? machine::read_text(file) : "", file,
-                                                machine::chain_parameters(*snapshot->values, number));
-          if (!described) bodies.set = collision::derived_bodies(bodies.links);
+          const auto bodies =
+              collision::load_bodies(directory, machine::chain_parameters(*snapshot->values, number));
           auto document = bodies_document(bodies);
           document["channel"] = number;
-          document["derived"] = !described;
+          document["derived"] = bodies.derived;
           respond(json_answer(200, document));
         } catch (const std::exception& error) {
           respond(problem_answer(409, error.what()));

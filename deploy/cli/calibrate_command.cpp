@@ -67,17 +67,13 @@ TrueMachine load_calibrated_machine(const CalibrationTarget& target, const Commo
                              machine.name);
   cluster::Client client(running.run.domain);
   const auto set = client.newest(topics::parameter_set);
-  machine.model = machine::parameters_of(set);
   for (const auto& pending : set.pending)
     if (machine::is_chain_parameter(pending.number))
       throw std::runtime_error("parameter " + machine::number_text(pending.number) +
                                " of the kinematics waits for a reset; reset the channel first");
-  auto report = std::make_unique<truth::PoseReport>(
-      truth::make_geometry(machine.truth.geometry, machine.outline, "truth.yaml"),
-      machine::make_chain(machine.model, target.channel), machine.outline);
-  report->temperatures = machine.report->temperatures;
-  report->compensation = machine.report->compensation;
-  machine.report = std::move(report);
+  const auto compensation = machine.report->compensation;
+  identification::take_model(machine, machine::parameters_of(set), target.channel);
+  machine.report->compensation = compensation;
   return machine;
 }
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <iostream>
@@ -19,6 +18,7 @@
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "figures.hpp"
+#include "interrupt_watch.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
 #include "standard_output.hpp"
@@ -142,14 +142,11 @@ std::size_t show_in_place(const Status& status, std::size_t shown) {
   return lines.size();
 }
 
-std::atomic<bool> watch_interrupted{false};
-
 int watch_status(StatusReader& reader, bool terminal) {
-  std::signal(SIGINT, [](int) { watch_interrupted = true; });
-  std::signal(SIGTERM, [](int) { watch_interrupted = true; });
+  const InterruptWatch interrupts;
   std::size_t shown = 0;
   bus::Json last;
-  while (!watch_interrupted) {
+  while (!InterruptWatch::requested()) {
     const auto status = reader.read();
     if (terminal) {
       shown = show_in_place(status, shown);

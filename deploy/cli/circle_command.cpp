@@ -5,68 +5,34 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
-#include "channel_motion.hpp"
 #include "circle_report.hpp"
-#include "circular_tests/circle_program.hpp"
-#include "circular_tests/turns.hpp"
 #include "figures.hpp"
-#include "identification/circle_points.hpp"
-#include "machine/kinematics.hpp"
+#include "identification/circle_test.hpp"
+#include "interrupt_watch.hpp"
+#include "machine_tests/sampled_motion.hpp"
+#include "report/captured_motion.hpp"
+#include "report/truth_pictures.hpp"
 #include "storage/file.hpp"
 #include "true_machine.hpp"
-#include "truth/measurement.hpp"
-#include "truth_picture.hpp"
 
 namespace trunnion::cli {
 namespace {
 
 using circular_tests::ProgrammedCircle;
+using servo_analysis::ChannelMotion;
 using truth::Vec3;
 
-constexpr std::uint16_t decimation = 8;  // one sample in a cycle of 1 ms
-constexpr double found_within = 1e-4;    // mm: of a recording, the path from its circle
+constexpr double found_within = 1e-4;  // mm: of a recording, the path from its circle
 
 struct CircleOptions {
   std::string machine, plane = "XY", source = "true", recording, plot, output, at;
   double radius = 100, feed = 1000, start = 0, overrun = 45, tool_length = 0;
   std::uint16_t channel = 0;
 };
-
-// The circle's centre in machine coordinates: as given, or where the axes stand.
-Vec3 centre_of(const CircleOptions& o, const ServoSession& session) {
-  Vec3 centre = Vec3::Zero();
-  if (!o.at.empty()) return coordinates("--at", o.at);
-  for (const auto& axis : session.axes())
-    if (axis.letter >= 'X' && axis.letter <= 'Z') centre[axis.letter - 'X'] = axis.place;
-  return centre;
-}
-
-void check_circle(const CircleOptions& o, const ServoSession& session, const Vec3& centre) {
-  for (int i = 0; i < 3; ++i) {
-    const auto& axis = session.axis(std::string(1, static_cast<char>('X' + i)));
-    const bool moves = o.plane.find(axis.letter) != std::string::npos;
-    const double reach = moves ? o.radius : 0;
-    if (centre[i] - reach < axis.low || centre[i] + reach > axis.high)
-      throw std::runtime_error(
-          fmt::format("axis {}: the circle goes from {:.3f} to {:.3f} mm, its travel is {:.3f} .. "
-                      "{:.3f}: choose another --at or --radius",
-                      axis.letter, centre[i] - reach, centre[i] + reach, axis.low, axis.high));
-    if (moves && o.feed > axis.highest_feed)
-      throw std::runtime_error(fmt::format("--feed {:g}: axis {} moves with up to {:g} mm/min", o.feed,
-                                           axis.letter, axis.highest_feed));
-  }
-}
-
-std::string program_of(const CircleOptions& o, const ServoSession& session, const Vec3& centre) {
-  std::vector<std::pair<char, double>> after;
-  for (const auto& axis : session.axes())
-    if (axis.letter >= 'X' && axis.letter <= 'Z') after.emplace_back(axis.letter, axis.place);
-  return circular_tests::circle_program({o.plane, centre, o.radius, o.feed, o.start, o.overrun}, after);
-}
 
 void write_readings(const std::string& path, const std::vector<circular_tests::RadialReading>& ccw,
                     const std::vector<circular_tests::RadialReading>& cw) {
@@ -77,89 +43,87 @@ void write_readings(const std::string& path, const std::vector<circular_tests::R
   storage::replace_file(path, lines);
 }
 
-int measure_circle(const CircleOptions& o, const Common& common) {
-  const auto plane = circular_tests::plane_of(o.plane);
-  const bool from_truth = o.source == "true";
+// What was run, and on which machine.
+struct CircleRun {
   ChannelMotion motion;
   ProgrammedCircle circle;
-  std::string name = o.machine, directory = o.machine;
+  std::string name, directory;
   machine::Parameters parameters;
-  if (!o.recording.empty()) {
-    if (from_truth && o.machine.empty())
-      throw std::runtime_error(
-          "--source true reads truth.yaml: name the machine, or choose --source encoder");
-    motion = motion_of_recording(o.recording, o.channel, parameters);
-    try {
-      circle = circular_tests::find_circle(identification::commanded_points(motion, plane), found_within);
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error(o.recording + ": plane " + o.plane + ": " + error.what());
-    }
-    if (name.empty()) name = o.recording;
-  } else {
-    ServoSession session(o.machine, common.domain, o.channel);
-    const auto centre = centre_of(o, session);
-    check_circle(o, session, centre);
-    motion = run_sampled(session, program_of(o, session, centre), "XYZ", decimation);
-    circle = {
-        {centre[static_cast<Eigen::Index>(plane.first)], centre[static_cast<Eigen::Index>(plane.second)]},
-        o.radius};
-    name = session.machine(), directory = session.machine_directory();
-    parameters = session.parameters();
+};
+
+CircleRun recorded_run(const CircleOptions& o) {
+  if (o.source == "true" && o.machine.empty())
+    throw std::runtime_error("--source true reads truth.yaml: name the machine, or choose --source encoder");
+  CircleRun run;
+  run.name = o.machine.empty() ? o.recording : o.machine;
+  run.directory = o.machine;
+  run.motion = report::motion_of_recording(o.recording, o.channel, run.parameters);
+  try {
+    const auto commanded = identification::commanded_points(run.motion, circular_tests::plane_of(o.plane));
+    run.circle = circular_tests::find_circle(commanded, found_within);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(o.recording + ": plane " + o.plane + ": " + error.what());
   }
-  const auto commanded = identification::commanded_points(motion, plane);
-  const auto turns = circular_tests::turns_on(commanded, circle);
-  if (turns.empty()) throw std::runtime_error("the axes have not made a whole turn");
-  truth::BallbarMeasurement measured;
-  identification::CirclePoints points;
-  truth::InstrumentTruth instrument_truth;
-  if (from_truth) {
-    auto machine = load_true_machine(directory, o.channel, {});
-    machine.report = std::make_unique<truth::PoseReport>(
-        machine.report->geometry(), machine::make_chain(parameters, o.channel), machine.outline);
-    machine.report->tool_length = o.tool_length;
-    points = identification::true_points(motion, plane, circle, *machine.report);
-    instrument_truth = instrument(machine, "ballbar");
-  } else {
-    points = identification::encoder_points(motion, plane);
-  }
-  truth::Instrument bar(instrument_truth);
-  double feed = 0;
-  for (const auto& turn : turns) {
-    auto& readings = turn.sense > 0 ? measured.ccw : measured.cw;
-    if (!readings.empty()) continue;
-    readings = circular_tests::readings_of(points, turn, circle);
-    for (auto& reading : readings) reading.deviation = bar.read(reading.deviation);
-    feed = std::max(feed, circular_tests::feed_reached(commanded, turn, motion.interval));
-  }
-  if (measured.ccw.empty() || measured.cw.empty())
-    throw std::runtime_error(std::string("the circle was run in one sense only (") +
-                             (measured.cw.empty() ? "counter-" : "") +
-                             "clockwise): a circular test needs both");
-  const auto report = circular_tests::circle_report(o.plane, circle.radius, measured.ccw, measured.cw);
-  const double lag = feed > 0 ? report.causes.lag_mismatch / (feed / 60) * 1e3 : 0;
-  const auto& turn = turns.front();
-  if (!o.output.empty()) write_readings(o.output, measured.ccw, measured.cw);
+  return run;
+}
+
+CircleRun run_on_machine(const CircleOptions& o, const Common& common) {
+  const InterruptWatch watch(true);
+  machine_tests::ServoSession session(o.machine, common.domain, o.channel, &InterruptWatch::requested);
+  const Vec3 centre = o.at.empty() ? machine_tests::linear_place(session) : coordinates("--at", o.at);
+  const auto plane = circular_tests::plane_of(o.plane);
+  CircleRun run;
+  run.motion = machine_tests::run_circle(session, {o.plane, centre, o.radius, o.feed, o.start, o.overrun});
+  run.circle = {
+      {centre[static_cast<Eigen::Index>(plane.first)], centre[static_cast<Eigen::Index>(plane.second)]},
+      o.radius};
+  run.name = session.machine(), run.directory = session.machine_directory();
+  run.parameters = session.parameters();
+  return run;
+}
+
+identification::CircleTest evaluated(const CircleOptions& o, const CircleRun& run) {
+  const auto plane = circular_tests::plane_of(o.plane);
+  if (o.source != "true")
+    return identification::evaluate_circle(run.motion, o.plane, run.circle,
+                                           identification::encoder_points(run.motion, plane), {});
+  auto machine = load_true_machine(run.directory, o.channel, {});
+  take_model(machine, run.parameters, o.channel);
+  machine.report->tool_length = o.tool_length;
+  return identification::evaluate_circle(
+      run.motion, o.plane, run.circle,
+      identification::true_points(run.motion, plane, run.circle, *machine.report),
+      identification::instrument(machine, "ballbar"));
+}
+
+int measure_circle(const CircleOptions& o, const Common& common) {
+  const auto run = o.recording.empty() ? run_on_machine(o, common) : recorded_run(o);
+  const auto test = evaluated(o, run);
+  const auto& circle = run.circle;
+  if (!o.output.empty()) write_readings(o.output, test.readings.ccw, test.readings.cw);
   if (!o.plot.empty())
     storage::replace_file(
         o.plot,
-        ballbar_picture(measured, fmt::format("{}, plane {}, R{:g} F{:.0f}, {}", name, o.plane, circle.radius,
-                                              feed, from_truth ? "true machine" : "encoders")));
+        report::ballbar_picture(
+            test.readings, fmt::format("{}, plane {}, R{:g} F{:.0f}, {}", run.name, o.plane, circle.radius,
+                                       test.feed, o.source == "true" ? "true machine" : "encoders")));
   if (common.json) {
-    auto out = report_json(report);
-    out["machine"] = name, out["source"] = o.source;
+    auto out = report_json(test.report);
+    out["machine"] = run.name, out["source"] = o.source;
     out["centre_mm"] = {circle.centre.first, circle.centre.second};
-    out["feed_mm_per_min"] = feed, out["servo_mismatch_ms"] = lag;
-    out["start_deg"] = turn.start, out["overrun_deg"] = turn.overrun, out["interval_s"] = motion.interval;
-    out["readings"] = {measured.ccw.size(), measured.cw.size()};
+    out["feed_mm_per_min"] = test.feed, out["servo_mismatch_ms"] = test.servo_mismatch;
+    out["start_deg"] = test.start, out["overrun_deg"] = test.overrun;
+    out["interval_s"] = run.motion.interval;
+    out["readings"] = {test.readings.ccw.size(), test.readings.cw.size()};
     std::cout << bus::text_of(out) << "\n";
     return 0;
   }
   print_figure("radius", circle.radius, "mm");
-  print_figure("feed reached", feed, "mm/min");
-  print_figure("start angle", turn.start, "deg");
-  print_figure("readings in a second", 1 / motion.interval, "");
-  print_report(report);
-  print_figure("servo mismatch", lag, "ms");
+  print_figure("feed reached", test.feed, "mm/min");
+  print_figure("start angle", test.start, "deg");
+  print_figure("readings in a second", 1 / run.motion.interval, "");
+  print_report(test.report);
+  print_figure("servo mismatch", test.servo_mismatch, "ms");
   for (const auto& file : {o.output, o.plot})
     if (!file.empty()) std::cout << file << "\n";
   return 0;

@@ -3,23 +3,17 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <stdexcept>
 
 #include "machine/chain_parameters.hpp"
-#include "machine/yaml.hpp"
-#include "machine_settings.hpp"
+#include "machine_directory.hpp"
 
 namespace trunnion::cli {
 
 collision::MachineBodies load_bodies(const TrueMachine& machine, const std::string& name,
                                      std::uint16_t channel) {
-  const auto chain = machine::chain_parameters(machine.model, channel);
-  const auto file = machine_directory(name) + "/bodies.yaml";
-  const bool described = std::filesystem::exists(file);
-  auto bodies = collision::parse_bodies(described ? machine::read_text(file) : "", file, chain,
-                                        machine.truth.geometry.structure);
-  if (!described) bodies.set = collision::derived_bodies(bodies.links);
+  auto bodies =
+      collision::load_bodies(machine_directory(name), machine::chain_parameters(machine.model, channel),
+                             machine.truth.geometry.structure);
   collision::add_solids(bodies.links, machine.truth.solids, bodies.set);
   return bodies;
 }

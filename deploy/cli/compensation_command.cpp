@@ -14,7 +14,7 @@
 #include "error_tables/table_parameters.hpp"
 #include "machine/machine.hpp"
 #include "machine/yaml.hpp"
-#include "machine_settings.hpp"
+#include "machine_directory.hpp"
 #include "parameter_request.hpp"
 #include "storage/file.hpp"
 

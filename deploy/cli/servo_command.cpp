@@ -8,12 +8,20 @@
 
 #include "commands.hpp"
 #include "figures.hpp"
+#include "interrupt_watch.hpp"
+#include "machine_tests/servo_tests.hpp"
+#include "report/servo_pictures.hpp"
 #include "servo_analysis/tuning_task.hpp"
-#include "servo_tests.hpp"
 #include "storage/file.hpp"
 
 namespace trunnion::cli {
 namespace {
+
+using machine_tests::ServoSession;
+using machine_tests::TestOptions;
+using machine_tests::TestReport;
+using servo_analysis::TestedAxis;
+using servo_analysis::TestFigure;
 
 struct ServoOptions : TestOptions {
   std::string machine, plot;
@@ -60,32 +68,31 @@ void propose_settings(const ServoSession& session,
 
 int run_test(const ServoOptions& o, const Common& common,
              TestReport (*test)(ServoSession&, const TestOptions&)) {
-  ServoSession session(o.machine, common.domain, o.channel);
-  const auto report = test(session, o);
-  if (!o.plot.empty()) storage::replace_file(o.plot, report.picture);
-  if (o.write && !report.proposal.empty()) session.write(report.proposal, "servo " + report.test);
+  const InterruptWatch watch(true);
+  ServoSession session(o.machine, common.domain, o.channel, &InterruptWatch::requested);
+  const auto found = test(session, o);
+  if (!o.plot.empty()) storage::replace_file(o.plot, report::picture_of(found.picture));
+  if (o.write && !found.proposal.empty()) session.write(found.proposal, "servo " + found.test);
   if (common.json) {
-    bus::Json out = {{"machine", session.machine()},
-                     {"test", report.test},
-                     {"axes", o.axes},
-                     {"reached", report.reached()}};
-    for (const auto& f : report.figures) out["figures"].push_back(json_of(f));
-    out["notes"] = report.notes;
-    out["proposal"] = json_of(report.proposal);
-    if (!report.details.is_null()) out["details"] = report.details;
+    bus::Json out = {
+        {"machine", session.machine()}, {"test", found.test}, {"axes", o.axes}, {"reached", found.reached()}};
+    for (const auto& f : found.figures) out["figures"].push_back(json_of(f));
+    out["notes"] = found.notes;
+    out["proposal"] = json_of(found.proposal);
+    if (!found.details.is_null()) out["details"] = found.details;
     std::cout << bus::text_of(out) << "\n";
-    return report.reached() ? 0 : 1;
+    return found.reached() ? 0 : 1;
   }
-  for (const auto& f : report.figures)
+  for (const auto& f : found.figures)
     print("{:<36} {:>12.4f} {:<20} {:<20} {}", f.name, f.value, f.unit, limits(f),
           f.least || f.most ? f.reached() ? "pass" : "FAIL" : "");
-  for (const auto& note : report.notes) std::cout << note << "\n";
-  propose_settings(session, report.proposal);
-  if (!report.proposal.empty())
+  for (const auto& note : found.notes) std::cout << note << "\n";
+  propose_settings(session, found.proposal);
+  if (!found.proposal.empty())
     print("{}", o.write ? "written; a change of encoders acts after a restart"
                         : "nothing written: --write sets the parameters");
   if (!o.plot.empty()) print("{}", o.plot);
-  return report.reached() ? 0 : 1;
+  return found.reached() ? 0 : 1;
 }
 
 void say_tuned(const TestedAxis& axis, const servo_analysis::TuningResult& result, double amplitude_um) {
@@ -98,7 +105,8 @@ void say_tuned(const TestedAxis& axis, const servo_analysis::TuningResult& resul
 }
 
 int tune(const ServoOptions& o, const Common& common) {
-  ServoSession session(o.machine, common.domain, o.channel);
+  const InterruptWatch watch(true);
+  ServoSession session(o.machine, common.domain, o.channel, &InterruptWatch::requested);
   std::vector<const TestedAxis*> axes;
   for (const auto& letter : o.axes)
     if (letter == "all")
@@ -113,7 +121,7 @@ int tune(const ServoOptions& o, const Common& common) {
     auto task = servo_analysis::tuning_task(session.parameters(), *a, partner, o.amplitude_um / 1000);
     if (!task.circles) partner = nullptr;
     if (!common.json) task.progress = [&](const std::string& line) { print("{}  {}", a->letter, line); };
-    SessionAxisUnderTest axis(session, *a, partner);
+    machine_tests::SessionAxisUnderTest axis(session, *a, partner);
     const auto result = servo_analysis::tune_axis(axis, task);
     const auto changed = changes(session, result.settings.values(a->number));
     values.insert(values.end(), changed.begin(), changed.end());
@@ -175,20 +183,24 @@ void add_servo_command(CLI::App& app, Common& common) {
     TestReport (*run)(ServoSession&, const TestOptions&);
   };
   static constexpr Row rows[] = {
-      {"position", "Following error to and fro at 1000 mm/min, and Kv without feed-forward", &test_position},
-      {"speed", "Ripple of the speed and peaks of the acceleration at 3000 mm/min", &test_speed},
-      {"current", "Time constant of the current loop by a step of the torque at rest", &test_current},
+      {"position", "Following error to and fro at 1000 mm/min, and Kv without feed-forward",
+       &machine_tests::test_position},
+      {"speed", "Ripple of the speed and peaks of the acceleration at 3000 mm/min",
+       &machine_tests::test_speed},
+      {"current", "Time constant of the current loop by a step of the torque at rest",
+       &machine_tests::test_current},
       {"overshoot",
        "Overshoot of the speed at the end of an acceleration at 100, 200, 500, 1000 and 3000 mm/min",
-       &test_overshoot},
+       &machine_tests::test_overshoot},
       {"roundness",
        "Circle of two axes: roundness, quadrant jumps, servo mismatch with and without feed-forward",
-       &test_roundness},
+       &machine_tests::test_roundness},
       {"rtcp",
        "A rotary axis turns under RTCP: mismatch of linear and rotary axes with and without feed-forward",
-       &test_rtcp},
-      {"frequency", "Frequency response of speed or position loop by a chirp, margins", &test_frequency},
-      {"friction", "Coulomb, viscous and Stribeck friction, weight, inertia", &test_friction}};
+       &machine_tests::test_rtcp},
+      {"frequency", "Frequency response of speed or position loop by a chirp, margins",
+       &machine_tests::test_frequency},
+      {"friction", "Coulomb, viscous and Stribeck friction, weight, inertia", &machine_tests::test_friction}};
   const auto add = [&](CLI::App& parent, const Row& row) {
     auto o = std::make_shared<ServoOptions>();
     auto* command = add_command(parent, common, row.name, row.about,
@@ -224,7 +236,7 @@ void add_servo_command(CLI::App& app, Common& common) {
   const auto [encoders, encoder_options] = add(
       *servo, {"encoders",
                "Compare motor and load encoder over one revolution, before the loop is closed over the load",
-               &test_encoders});
+               &machine_tests::test_encoders});
   encoders->add_flag("--write", encoder_options->write, "Set sign and pulses of the load encoder");
   auto o = std::make_shared<ServoOptions>();
   auto* command = add_command(

@@ -10,9 +10,9 @@
 #include "bus/json.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
+#include "report/truth_pictures.hpp"
 #include "storage/file.hpp"
 #include "true_machine.hpp"
-#include "truth_picture.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -63,8 +63,9 @@ int truth_of(const TruthOptions& options, bool json) {
   report.tool_length = options.tool_length;
   bus::Json out = {{"machine", machine.name}, {"structure", report.geometry().notation()}};
   if (!options.plot.empty()) {
-    storage::replace_file(options.plot, truth_picture(report, machine.outline,
-                                                      machine.name + " " + report.geometry().notation()));
+    storage::replace_file(
+        options.plot,
+        report::truth_picture(report, machine.outline, machine.name + " " + report.geometry().notation()));
     if (!json) std::cout << options.plot << "\n";
   }
   if (options.summary > 0) {

@@ -71,4 +71,15 @@ CheckSummary summary_of(const std::vector<Vec3>& displacements) {
   return summary;
 }
 
+RtcpCheck check_rtcp(const truth::PoseReport& machine, const MeasuredMachine& measured,
+                     const MeasurementInputs& inputs, const ChainParameters& before,
+                     const ChainParameters& after, std::size_t count, std::uint64_t seed) {
+  const auto poses =
+      random_check_poses(measured, inputs.axes, inputs.sphere, inputs.probe_length, count, seed);
+  const auto summary = [&](const ChainParameters& model) {
+    return summary_of(sphere_displacements(machine, model, inputs.sphere, inputs.probe_length, poses));
+  };
+  return {poses.size(), summary(before), summary(after)};
+}
+
 }  // namespace trunnion::calibration

@@ -27,4 +27,14 @@ struct CheckSummary {
 };
 CheckSummary summary_of(const std::vector<Vec3>& displacements);
 
+/// Both models at the same poses.
+struct RtcpCheck {
+  std::size_t poses = 0;
+  CheckSummary before, after;
+};
+/// At `count` random_check_poses() of the inputs.
+RtcpCheck check_rtcp(const truth::PoseReport& machine, const MeasuredMachine& measured,
+                     const MeasurementInputs& inputs, const ChainParameters& before,
+                     const ChainParameters& after, std::size_t count, std::uint64_t seed);
+
 }  // namespace trunnion::calibration

@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <stdexcept>
+#include <utility>
 
+#include "calibration/sphere_check.hpp"
 #include "metrology/axis_of_rotation.hpp"
 
 namespace trunnion::calibration {
@@ -146,6 +148,23 @@ Readings read_virtually(ManualKind kind, const truth::PoseReport& machine, const
   }
   r["arbor_diameter"] = gauges.arbor_diameter;
   return r;
+}
+
+std::vector<ManualCheck> check_and_correct(ManualKind kind, const truth::PoseReport& machine,
+                                           ChainParameters model, const VirtualCheck& check) {
+  const auto poses = check_poses(kind, check.alpha);
+  truth::Instrument dial(check.dial);
+  std::vector<ManualCheck> checks;
+  for (int round = 0;; ++round) {
+    auto displacements = sphere_displacements(machine, model, check.place, check.ball_length, poses);
+    for (auto& d : displacements)
+      for (double& value : d) value = dial.read(value);
+    auto acceptance = acceptance_of(kind, displacements);
+    const auto& made =
+        checks.emplace_back(ManualCheck{model, std::move(displacements), std::move(acceptance)});
+    if (made.acceptance.accepted() || round == most_corrections) return checks;
+    model = corrected(kind, made.displacements, check.alpha, model);
+  }
 }
 
 }  // namespace trunnion::calibration

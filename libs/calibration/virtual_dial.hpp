@@ -24,6 +24,27 @@ struct ManualGauges {
 Readings read_virtually(ManualKind kind, const truth::PoseReport& machine, const ChainParameters& model,
                         const ManualGauges& gauges);
 
+/// The RTCP check at the nine poses with one model.
+struct ManualCheck {
+  ChainParameters model;
+  std::vector<Vec3> displacements;  ///< mm
+  Acceptance acceptance;
+};
+
+struct VirtualCheck {
+  Vec3 place = Vec3::Zero();      ///< mm, of the ball in the workpiece frame
+  double ball_length = 120;       ///< mm, spindle face to the ball's centre
+  double alpha = 30;              ///< deg, see check_poses()
+  truth::InstrumentTruth dial{};  ///< of every reading, mm
+};
+
+inline constexpr int most_corrections = 3;
+
+/// Checks and corrects the model until it is accepted, with most_corrections at most; the last check has the
+/// model that came of it.
+std::vector<ManualCheck> check_and_correct(ManualKind kind, const truth::PoseReport& machine,
+                                           ChainParameters model, const VirtualCheck& check);
+
 /// Linear axes that put the true tip of a tool of `length` at `place` of the workpiece frame, mm.
 Vec3 position_for(const truth::PoseReport& machine, const ChainParameters& model, const Vec3& place,
                   const Angles& angles, double length);

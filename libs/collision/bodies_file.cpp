@@ -2,6 +2,7 @@
 #include "collision/bodies_file.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
 #include "canonical/axes.hpp"
@@ -214,6 +215,16 @@ MachineBodies parse_bodies(const std::string& text, const std::string& file,
                            const geometry::ChainParameters& design,
                            const std::vector<volumetric::StructureAxis>& structure) {
   return BodiesParser(file, design, structure).parse(machine::parse_yaml(text, file));
+}
+
+MachineBodies load_bodies(const std::string& directory, const geometry::ChainParameters& design,
+                          const std::vector<volumetric::StructureAxis>& structure) {
+  const auto file = directory + "/bodies.yaml";
+  const bool described = std::filesystem::exists(file);
+  auto bodies = parse_bodies(described ? machine::read_text(file) : "", file, design, structure);
+  if (!described) bodies.set = derived_bodies(bodies.links);
+  bodies.derived = !described;
+  return bodies;
 }
 
 }  // namespace trunnion::collision

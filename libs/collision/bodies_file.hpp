@@ -11,6 +11,7 @@ namespace trunnion::collision {
 struct MachineBodies {
   MachineLinks links;
   BodySet set;
+  bool derived = false;  ///< from the chain alone: the machine has no bodies.yaml
 };
 
 /// `file` is named in errors. `structure` is that of a machine whose file names none. Throws
@@ -19,5 +20,9 @@ struct MachineBodies {
 MachineBodies parse_bodies(const std::string& text, const std::string& file,
                            const geometry::ChainParameters& design,
                            const std::vector<volumetric::StructureAxis>& structure = {});
+
+/// Of the machine in `directory`; without bodies.yaml the derived_bodies().
+MachineBodies load_bodies(const std::string& directory, const geometry::ChainParameters& design,
+                          const std::vector<volumetric::StructureAxis>& structure = {});
 
 }  // namespace trunnion::collision

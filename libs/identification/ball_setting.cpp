@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <string_view>
 
 namespace trunnion::identification {
 namespace {
@@ -71,6 +73,35 @@ geometry::Angles angles_at(const TurnedBall& set, double angle) {
 
 Vec3 place_at(const TurnedBall& set, double angle) {
   return set.model.machine_from_tip(set.ball, angles_at(set, angle), set.tool_length);
+}
+
+bool hold_axis(TurnedBall& set, const std::string& word) {
+  const auto index = word.empty() ? std::string_view::npos : canonical::axis_letters.find(word[0]);
+  std::size_t used = 0;
+  double value = 0;
+  try {
+    value = std::stod(word.substr(std::min<std::size_t>(1, word.size())), &used);
+  } catch (const std::exception&) {
+  }
+  if (index == std::string_view::npos || index < 3 || !set.model.turns(index - 3) || index == set.axis ||
+      used == 0 || used + 1 != word.size() || !std::isfinite(value))
+    return false;
+  set.held[index - 3] = value;
+  return true;
+}
+
+std::optional<LeftTravel> left_travel(const TurnedBall& set,
+                                      const std::array<servo_analysis::TestedAxis, 3>& linear, double start) {
+  constexpr int steps = 72;
+  for (int k = 0; k <= steps; ++k) {
+    const double angle = start + set.sweep * k / steps;
+    const Vec3 place = place_at(set, angle);
+    for (int i = 0; i < 3; ++i) {
+      const auto& axis = linear[static_cast<std::size_t>(i)];
+      if (!(place[i] >= axis.low && place[i] <= axis.high)) return LeftTravel{axis, place[i], angle};
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<metrology::AxisError> place_ball(TurnedBall& set, const WantedBall& wanted, double start,

@@ -2,6 +2,7 @@
 // Where a ball is set to turn a rotary axis with it, and the programs that turn it under tool tip control.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +19,10 @@ geometry::Angles angles_at(const TurnedBall& set, double angle);
 /// mm: X Y Z that puts the tip into the ball when the axis is at `angle`.
 truth::Vec3 place_at(const TurnedBall& set, double angle);
 
+/// `word`, as A-30: another rotary axis than that of the test stands at this angle, deg. False when it does
+/// not say that.
+bool hold_axis(TurnedBall& set, const std::string& word);
+
 struct WantedBall {
   std::optional<truth::Vec3> place;     ///< mm, workpiece frame
   double radius = 72.411, height = 50;  ///< mm: about an axis of a table and along it, without `place`
@@ -28,6 +33,16 @@ struct WantedBall {
 /// axes are at `here` and the axis is at `start`. Says why when the ball has no circle about the axis.
 std::optional<metrology::AxisError> place_ball(TurnedBall& set, const WantedBall& wanted, double start,
                                                const truth::Vec3& here);
+
+/// A linear axis that leaves its travel.
+struct LeftTravel {
+  servo_analysis::TestedAxis axis;
+  double place = 0;  ///< mm, outside of the travel
+  double angle = 0;  ///< deg of the axis of the test
+};
+/// The first of X, Y, Z that does while the axis turns from `start` deg by the sweep; nothing when none does.
+std::optional<LeftTravel> left_travel(const TurnedBall& set,
+                                      const std::array<servo_analysis::TestedAxis, 3>& linear, double start);
 
 /// Where the axes of the channel are before and after, and the tool whose tip is the ball's centre.
 struct BallProgram {

@@ -93,19 +93,15 @@ class PlanReader {
   void laser(const YAML::Node& entry, Measurement& m) {
     if (!entry["error"]) reader_.fail(entry, "error is missing: EXX, EYX .. EBZ");
     const auto error = reader_.text(entry["error"]);
-    const auto component =
-        error.size() == 3 && error[0] == 'E' ? axis_letters.find(error[1]) : std::string_view::npos;
-    const auto axis = error.size() == 3 ? axis_letters.find(error[2]) : std::string_view::npos;
-    if (component > 5 || axis > 2)
+    const auto known = linear_axis_error(error);
+    if (!known)
       reader_.fail(entry["error"], "'" + error + "': expected EXX, EYX .. ECZ: an error of X, Y or Z");
     m.name = "laser " + error;
-    m.laser.component = component, m.laser.axis = axis;
-    if (m.angular() && truth::Vec3::Unit(static_cast<Eigen::Index>(component - 3))
-                               .cross(machine_.design.tool_direction.normalized())
-                               .norm() < 0.01)
+    m.laser.component = known->component, m.laser.axis = known->axis;
+    if (!laser_shows(*known, machine_.design.tool_direction.normalized()))
       reader_.fail(entry["error"], error + ": a rotation about the tool does not move the tool's axis");
     m.uncertainty = m.angular() ? 1e-6 : micro;
-    const auto& travel = machine_.axes[axis];
+    const auto& travel = machine_.axes[known->axis];
     m.laser.from = travel.low, m.laser.to = travel.high;
     const Limits in_travel{travel.low, travel.high};
     reader_.each(
@@ -184,6 +180,19 @@ class PlanReader {
 };
 
 }  // namespace
+
+std::optional<LinearAxisError> linear_axis_error(const std::string& name) {
+  if (name.size() != 3 || name[0] != 'E') return std::nullopt;
+  const auto component = axis_letters.find(name[1]), axis = axis_letters.find(name[2]);
+  if (component > 5 || axis > 2) return std::nullopt;
+  return LinearAxisError{component, axis};
+}
+
+bool laser_shows(const LinearAxisError& error, const truth::Vec3& tool_direction) {
+  if (error.component < 3) return true;
+  const truth::Vec3 about = truth::Vec3::Unit(static_cast<Eigen::Index>(error.component - 3));
+  return about.cross(tool_direction).norm() >= 0.01;
+}
 
 MeasurementPlan parse_plan(const std::string& text, const std::string& file,
                            const truth::MachineOutline& machine) {

@@ -2,6 +2,7 @@
 // Which instrument measures along which line: plan.yaml of `trunnion measure geometry`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,16 @@
 #include "truth/truth_file.hpp"
 
 namespace trunnion::identification {
+
+/// An error of a linear axis by its name: EXX, EYX .. ECZ.
+struct LinearAxisError {
+  std::size_t component = 0;  ///< 0 .. 2 translation along X Y Z, 3 .. 5 rotation about X Y Z
+  std::size_t axis = 0;       ///< 0 .. 2: X Y Z
+};
+std::optional<LinearAxisError> linear_axis_error(const std::string& name);
+
+/// A rotation about the tool does not move the tool's axis: no laser shows it.
+bool laser_shows(const LinearAxisError& error, const truth::Vec3& tool_direction);
 
 enum class InstrumentKind { laser, ballbar, nest };
 

@@ -94,6 +94,12 @@ Vec3 dynamic_less_static(const std::vector<double>& angles, const std::vector<Ve
   return ((squares - sum.cwiseAbs2() / n) / (n - 1)).cwiseMax(0).cwiseSqrt();
 }
 
+StaticComparison compare(const TurnedBall& set, const RTestResult& dynamic,
+                         const std::vector<BallSample>& stops) {
+  return {locate_from_stops(set, stops), dynamic_less_static(dynamic.angles, dynamic.read, stops),
+          dynamic_less_static(dynamic.angles, dynamic.cleaned, stops)};
+}
+
 Vec3 span_of(const std::vector<Vec3>& deviations) {
   if (deviations.empty()) return Vec3::Zero();
   Vec3 low = deviations.front(), high = low;

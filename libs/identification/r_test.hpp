@@ -34,6 +34,16 @@ AxisLocation locate_from_stops(const TurnedBall& set, const std::vector<BallSamp
 truth::Vec3 dynamic_less_static(const std::vector<double>& angles, const std::vector<truth::Vec3>& dynamic,
                                 const std::vector<BallSample>& stops);
 
+/// A dynamic test beside a static one.
+struct StaticComparison {
+  AxisLocation location;  ///< by the stops
+  /// Dynamic less static, as read and cleaned: standard deviation along X, Y, Z, mm.
+  truth::Vec3 difference = truth::Vec3::Zero(), cleaned = truth::Vec3::Zero();
+};
+inline constexpr std::size_t least_stops = 4;  ///< that locate an axis
+StaticComparison compare(const TurnedBall& set, const RTestResult& dynamic,
+                         const std::vector<BallSample>& stops);
+
 /// Largest less least along X, Y, Z, mm.
 truth::Vec3 span_of(const std::vector<truth::Vec3>& deviations);
 

@@ -2,11 +2,13 @@
 #include "report/captured_motion.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "geometry/types.hpp"
 #include "machine/axes.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/parameter_constants.hpp"
+#include "recording/file_stream.hpp"
 
 namespace trunnion::report {
 
@@ -40,6 +42,19 @@ servo_analysis::ChannelMotion motion_of(const Capture& capture, std::uint16_t ch
     ++motion.count;
   }
   return motion;
+}
+
+servo_analysis::ChannelMotion motion_of_recording(const std::string& file, std::uint16_t channel,
+                                                  machine::Parameters& parameters) {
+  recording::FileSource source(file);
+  const auto capture = read_capture(source, channel);
+  if (capture.damaged) throw std::runtime_error(file + ": " + capture.problem);
+  if (!capture.has_parameters) throw std::runtime_error(file + ": no parameters: " + capture.problem);
+  if (capture.path.empty() || capture.actual.width == 0)
+    throw std::runtime_error(file + ": no motion of channel " + std::to_string(channel) +
+                             ": record the topics path_frame and feedback_frame");
+  parameters = capture.tables.parameters;
+  return motion_of(capture, channel);
 }
 
 }  // namespace trunnion::report

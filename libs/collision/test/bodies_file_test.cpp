@@ -110,5 +110,12 @@ TEST(DerivedBodies, ProbeAndSphereAreThoseOfTheTruth) {
   EXPECT_LT((set.bodies[4].position - Vec3(1, 2, -22)).norm(), 1e-12) << "the shaft goes from Z3 to Z-47";
 }
 
+TEST(BodiesFile, IsNotNeeded) {
+  const auto bodies = load_bodies(testing::TempDir() + "/no-machine", geometry::ac_table());
+  EXPECT_TRUE(bodies.derived);
+  EXPECT_EQ(bodies.set.bodies.size(), derived_bodies(bodies.links).bodies.size());
+  EXPECT_FALSE(parsed("bodies: []").derived);
+}
+
 }  // namespace
 }  // namespace trunnion::collision

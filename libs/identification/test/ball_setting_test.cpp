@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <string>
 
 #include "ac_machine.hpp"
@@ -53,6 +55,30 @@ TEST(BallSetting, TakesAPlaceAndRefusesOneOnTheAxis) {
   EXPECT_NEAR(set.radius, 40, 1e-6);
   wanted.place = truth::Vec3(0, 0, -350);
   EXPECT_TRUE(place_ball(set, wanted, 0, truth::Vec3::Zero()));
+}
+
+TEST(BallSetting, HoldsAnotherRotaryAxisOfTheMachine) {
+  auto set = around_c();
+  EXPECT_TRUE(hold_axis(set, "A-30.5"));
+  EXPECT_EQ(set.held[0], -30.5);
+  for (const auto* word : {"", "A", "A30x", "C30", "B30", "X30"}) EXPECT_FALSE(hold_axis(set, word)) << word;
+  EXPECT_EQ(set.held[0], -30.5);
+}
+
+// The ball goes round at 72.411 mm about X0 Y0; at 90 degrees Y has gone to -72.411 or 72.411.
+TEST(BallSetting, NamesTheLinearAxisThatLeavesItsTravel) {
+  auto set = around_c();
+  ASSERT_FALSE(place_ball(set, {}, 0, truth::Vec3::Zero()));
+  std::array<servo_analysis::TestedAxis, 3> linear;
+  for (std::size_t i = 0; i < 3; ++i) linear[i].letter = "XYZ"[i], linear[i].low = -500, linear[i].high = 500;
+  EXPECT_FALSE(left_travel(set, linear, 0));
+  linear[1].low = -60, linear[1].high = 60;
+  const auto left = left_travel(set, linear, 0);
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->axis.letter, 'Y');
+  EXPECT_GT(std::abs(left->place), 60);
+  // asin(60 / 72.411) is 55.96 degrees, the next of 72 steps is 60.
+  EXPECT_NEAR(left->angle, 60, 1e-9);
 }
 
 TEST(BallPrograms, TurnUnderTheToolTipControlAndBack) {

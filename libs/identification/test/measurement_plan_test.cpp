@@ -59,5 +59,17 @@ TEST(MeasurementPlan, AFaultIsOneLineWithItsPlace) {
   EXPECT_THAT(with("{instrument: ballbar, points: 18}"), HasSubstr("a multiple of 4"));
 }
 
+TEST(LinearAxisErrors, HaveTheirNamesFromTheStandard) {
+  const auto error = linear_axis_error("EBX");
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->component, 4u);
+  EXPECT_EQ(error->axis, 0u);
+  for (const auto* name : {"", "EX", "EXXX", "AXX", "EXA", "EUX", "EX?"})
+    EXPECT_FALSE(linear_axis_error(name)) << name;
+  EXPECT_TRUE(laser_shows(*error, truth::Vec3::UnitZ()));
+  EXPECT_FALSE(laser_shows(*error, truth::Vec3::UnitY()));
+  EXPECT_TRUE(laser_shows(*linear_axis_error("EYX"), truth::Vec3::UnitY()));
+}
+
 }  // namespace
 }  // namespace trunnion::identification

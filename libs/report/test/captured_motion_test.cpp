@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "recording/file_stream.hpp"
 #include "synthetic_run.hpp"
+#include "testing_support/refusal.hpp"
 
 namespace trunnion::report {
 namespace {
@@ -20,12 +20,12 @@ TEST(CapturedMotion, HasCommandAndFeedbackOfEveryAxis) {
   run.program = "G54 G90 G61\nG0 X10 Y5 Z10\nG1 X60 F3000\nM30\n";
   run.encoder_error = [](std::uint64_t, std::array<double, 5>& axes) { axes[0] += 0.01; };
   const auto cycles = test::record_run(run);
-  servo_analysis::ChannelMotion motion;
-  {
-    recording::FileSource source(run.file);
-    motion = motion_of(read_capture(source, 0), 0);
-  }
+  machine::Parameters parameters;
+  const auto motion = motion_of_recording(run.file, 0, parameters);
+  const auto refused = testing_support::refusal_of([&] { motion_of_recording(run.file, 1, parameters); });
   std::filesystem::remove(run.file);
+  EXPECT_EQ(refused, run.file + ": no motion of channel 1: record the topics path_frame and feedback_frame");
+  EXPECT_FALSE(parameters.values.empty());
   EXPECT_NEAR(motion.interval, 0.001, 1e-12);
   ASSERT_GT(motion.count, 900u);
   EXPECT_LE(motion.count, cycles);
