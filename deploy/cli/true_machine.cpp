@@ -6,12 +6,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "compensation/model_parameters.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/machine.hpp"
 #include "machine/yaml.hpp"
 #include "machine_settings.hpp"
 #include "text/quantity.hpp"
-#include "volumetric/model_parameters.hpp"
 
 namespace trunnion::cli {
 namespace {

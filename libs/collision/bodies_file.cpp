@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "canonical/axes.hpp"
+#include "compensation/structure.hpp"
 #include "geometry/angle.hpp"
 #include "machine/yaml.hpp"
 #include "truth/truth_reader.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::collision {
 namespace {

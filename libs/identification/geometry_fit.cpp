@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "canonical/axes.hpp"
+#include "compensation/structure.hpp"
 #include "geometry/angle.hpp"
 #include "geometry/decompositions.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::identification {
 namespace {

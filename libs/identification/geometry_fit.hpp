@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <map>
 
+#include "compensation/model_parameters.hpp"
 #include "identification/measurement_plan.hpp"
-#include "volumetric/model_parameters.hpp"
 
 namespace trunnion::identification {
 

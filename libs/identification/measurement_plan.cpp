@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "canonical/axes.hpp"
+#include "compensation/structure.hpp"
 #include "machine/yaml.hpp"
 #include "text/quantity.hpp"
 #include "truth/truth_reader.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::identification {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "compensation/volumetric_compensation.hpp"
 #include "truth/machine_outline.hpp"
 #include "truth/true_geometry.hpp"
-#include "volumetric/volumetric_compensation.hpp"
 
 namespace trunnion::truth {
 

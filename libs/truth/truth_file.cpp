@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "canonical/axes.hpp"
+#include "compensation/structure.hpp"
 #include "machine/yaml.hpp"
 #include "truth/drive_section.hpp"
 #include "truth/error_section.hpp"
@@ -13,7 +14,6 @@
 #include "truth/random_machine.hpp"
 #include "truth/truth_reader.hpp"
 #include "truth/units.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::truth {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "compensation/structure.hpp"
 #include "geometry/test/machines.hpp"
 #include "truth/random_source.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::collision {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volumetric/warm_up.hpp"
+#include "compensation/warm_up.hpp"
 
 #include <cmath>
 

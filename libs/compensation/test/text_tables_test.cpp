@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "error_tables/text_tables.hpp"
+#include "compensation/text_tables.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "error_tables/table_parameters.hpp"
+#include "compensation/table_parameters.hpp"
 #include "machine/parameter_constants.hpp"
 #include "testing_support/refusal.hpp"
 

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "volumetric/error_model.hpp"
+#include "compensation/error_model.hpp"
 
 namespace trunnion::volumetric {
 

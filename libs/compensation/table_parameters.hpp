@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "error_tables/text_tables.hpp"
+#include "compensation/text_tables.hpp"
 #include "machine/parameters.hpp"
 
 namespace trunnion::error_tables {

@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "volumetric/error_model.hpp"
+#include "compensation/error_model.hpp"
 
 namespace trunnion::volumetric {
 

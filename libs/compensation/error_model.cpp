@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volumetric/error_model.hpp"
+#include "compensation/error_model.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

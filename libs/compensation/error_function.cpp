@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volumetric/error_function.hpp"
+#include "compensation/error_function.hpp"
 
 #include <algorithm>
 #include <cmath>

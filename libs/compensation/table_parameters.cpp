@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "error_tables/table_parameters.hpp"
+#include "compensation/table_parameters.hpp"
 
 #include <algorithm>
 #include <stdexcept>

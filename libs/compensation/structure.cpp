@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volumetric/structure.hpp"
+#include "compensation/structure.hpp"
 
 #include <sstream>
 

@@ -2,7 +2,7 @@
 // Any text is read as tables that are written and read again with the same text, or refused with its place.
 #include <cstdlib>
 
-#include "error_tables/text_tables.hpp"
+#include "compensation/text_tables.hpp"
 #include "testing_support/refusal.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "compensation/volumetric_compensation.hpp"
 #include "machine/parameters.hpp"
-#include "volumetric/volumetric_compensation.hpp"
 
 namespace trunnion::volumetric {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "error_tables/text_tables.hpp"
+#include "compensation/text_tables.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volumetric/model_parameters.hpp"
+#include "compensation/model_parameters.hpp"
 
+#include "compensation/structure.hpp"
 #include "geometry/angle.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/axes.hpp"
 #include "machine/chain_parameters.hpp"
 #include "machine/parameter_constants.hpp"
 #include "text/quantity.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::volumetric {
 namespace {

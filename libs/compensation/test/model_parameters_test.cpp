@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volumetric/model_parameters.hpp"
+#include "compensation/model_parameters.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "compensation/structure.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/parameter_constants.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::volumetric {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volumetric/volumetric_compensation.hpp"
+#include "compensation/volumetric_compensation.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -13,9 +13,9 @@
 #include <variant>
 #include <vector>
 
+#include "compensation/error_function.hpp"
+#include "compensation/warm_up.hpp"
 #include "geometry/chain.hpp"
-#include "volumetric/error_function.hpp"
-#include "volumetric/warm_up.hpp"
 
 namespace trunnion::volumetric {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volumetric/error_function.hpp"
+#include "compensation/error_function.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "volumetric/warm_up.hpp"
+#include "compensation/warm_up.hpp"
 
 namespace trunnion::volumetric {
 namespace {
