@@ -18,10 +18,10 @@
 #include "machine/machine.hpp"
 #include "machine/service_constants.hpp"
 #include "machine/yaml.hpp"
+#include "parameter_store/tool_tables.hpp"
 #include "plc/devices/hal_pins.hpp"
 #include "plc/translation.hpp"
 #include "storage/kept_file.hpp"
-#include "tool_tables/tables.hpp"
 #include "truth/truth_file.hpp"
 
 namespace trunnion::machine_check {

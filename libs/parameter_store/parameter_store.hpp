@@ -7,9 +7,9 @@
 #include "contracts/types.hpp"
 #include "machine/axis_faults.hpp"
 #include "parameter_store/active_set.hpp"
+#include "parameter_store/machine_tables.hpp"
 #include "parameter_store/storage.hpp"
-#include "tool_tables/machine_tables.hpp"
-#include "tool_tables/tables.hpp"
+#include "parameter_store/tool_tables.hpp"
 
 namespace trunnion::parameters {
 

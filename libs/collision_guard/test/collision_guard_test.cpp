@@ -13,8 +13,8 @@
 #include "analysis/program_run.hpp"
 #include "language/text_source.hpp"
 #include "machine/chain_parameters.hpp"
+#include "parameter_store/machine_tables.hpp"
 #include "testing_support/rounds.hpp"
-#include "tool_tables/machine_tables.hpp"
 #include "truth/random_source.hpp"
 
 namespace trunnion::collision_guard {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tool_tables/machine_tables.hpp"
+#include "parameter_store/machine_tables.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tool_tables/tables.hpp"
+#include "parameter_store/tool_tables.hpp"
 
 namespace trunnion::tool_tables {
 namespace {
@@ -22,7 +22,7 @@ TEST(MachineTables, AChannelTheMachineDoesNotHaveIsRefused) {
 }
 
 TEST(MachineTables, AWrongTableIsRefusedWithItsPlace) {
-  const fs::path copy = fs::temp_directory_path() / ("tool_tables_test_" + std::to_string(getpid()));
+  const fs::path copy = fs::temp_directory_path() / ("machine_tables_test_" + std::to_string(getpid()));
   fs::copy(ac_table, copy, fs::copy_options::recursive);
   std::ofstream(copy / tools_file) << "- {number: 1, length: long}\n";
   std::string message;

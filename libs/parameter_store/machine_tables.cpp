@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tool_tables/machine_tables.hpp"
+#include "parameter_store/machine_tables.hpp"
 
 #include <fstream>
 #include <optional>
 #include <sstream>
 
 #include "machine/machine.hpp"
-#include "tool_tables/tables.hpp"
+#include "parameter_store/tool_tables.hpp"
 
 namespace trunnion::tool_tables {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tool_tables/tables.hpp"
+#include "parameter_store/tool_tables.hpp"
 
 #include <sstream>
 #include <stdexcept>
