@@ -114,7 +114,7 @@ std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std
     plot.curve(points, style);
   };
   for (int k = -3; k <= 3; ++k) circle(1 + 1e-3 * division * k * magnification, ideal_style);
-  const auto trace = [&](const std::vector<circular_tests::RadialReading>& readings, const char* style) {
+  const auto trace = [&](const std::vector<geometry::RadialReading>& readings, const char* style) {
     std::vector<report::PlotPoint> points;
     for (std::size_t i = 0; i < readings.size(); i += readings.size() / most_circle_points + 1) {
       const auto& reading = readings[i];
