@@ -67,7 +67,7 @@ std::string axis_of_test(const ServoSession& session, const CommandOptions& o) {
 }
 
 // ISO 10791-6: annex A two rotary axes in the head, B two in the table, C one in each.
-char annex_of(const truth::MachineOutline& machine) {
+char annex_of(const machine::MachineOutline& machine) {
   const bool head = machine.design.head_1 || machine.design.head_2;
   const bool table = machine.design.table_1 || machine.design.table_2;
   return head && table ? 'C' : head ? 'A' : 'B';

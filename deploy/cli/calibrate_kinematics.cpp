@@ -188,9 +188,9 @@ void check_rtcp(const KinematicsOptions& o, const TrueMachine& machine,
 }
 
 // That of truth.yaml; without one, an exact probe as the inputs have it.
-truth::TouchProbeTruth true_probe(const KinematicsOptions& o, const truth::Truth& truth,
-                                  const calibration::MeasurementInputs& in) {
-  truth::TouchProbeTruth probe;
+touch_probe::TouchProbeTruth true_probe(const KinematicsOptions& o, const truth::Truth& truth,
+                                        const calibration::MeasurementInputs& in) {
+  touch_probe::TouchProbeTruth probe;
   probe.length = in.probe_length, probe.ball_radius = in.ball_diameter / 2;
   if (truth.probe) probe = *truth.probe;
   if (o.repeatability) probe.repeatability = *o.repeatability / um;
@@ -201,14 +201,14 @@ truth::TouchProbeTruth true_probe(const KinematicsOptions& o, const truth::Truth
 }
 
 // Those of truth.yaml; without a sphere among them, one where the inputs expect it.
-std::vector<truth::Solid> true_solids(const KinematicsOptions& o, const truth::Truth& truth,
-                                      const calibration::MeasurementInputs& in) {
+std::vector<touch_probe::Solid> true_solids(const KinematicsOptions& o, const truth::Truth& truth,
+                                            const calibration::MeasurementInputs& in) {
   auto solids = truth.solids;
   const auto first = std::find_if(solids.begin(), solids.end(), [](const auto& solid) {
-    return std::holds_alternative<truth::SphereGauge>(solid);
+    return std::holds_alternative<touch_probe::SphereGauge>(solid);
   });
-  auto& sphere = std::get<truth::SphereGauge>(
-      first == solids.end() ? solids.emplace_back(truth::SphereGauge{in.sphere, in.sphere_diameter / 2})
+  auto& sphere = std::get<touch_probe::SphereGauge>(
+      first == solids.end() ? solids.emplace_back(touch_probe::SphereGauge{in.sphere, in.sphere_diameter / 2})
                             : *first);
   if (!o.true_sphere.empty()) sphere.centre = vector_option("--true-sphere", o.true_sphere);
   return solids;

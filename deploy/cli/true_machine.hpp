@@ -13,7 +13,7 @@ namespace trunnion::cli {
 
 struct TrueMachine {
   std::string name;
-  truth::MachineOutline outline;
+  machine::MachineOutline outline;
   truth::Truth truth;
   machine::Parameters model;  ///< of the control: as delivered, with the settings
   std::unique_ptr<truth::PoseReport> report;

@@ -29,7 +29,7 @@ struct GridPoint {
   double x, y, error_x, error_y;
 };
 
-GridPoint point(const truth::PoseReport& report, const truth::MachineOutline& machine,
+GridPoint point(const truth::PoseReport& report, const machine::MachineOutline& machine,
                 const PicturePlane& plane, double u, double v) {
   truth::MachinePose pose;
   for (std::size_t i = 0; i < 3; ++i) pose.positions[i] = (machine.axes[i].low + machine.axes[i].high) / 2;
@@ -47,7 +47,7 @@ GridPoint point(const truth::PoseReport& report, const truth::MachineOutline& ma
 
 }  // namespace
 
-std::string truth_picture(const truth::PoseReport& report, const truth::MachineOutline& machine,
+std::string truth_picture(const truth::PoseReport& report, const machine::MachineOutline& machine,
                           const std::string& title) {
   constexpr PicturePlane planes[] = {{0, 1, "X mm", "Y mm"}, {0, 2, "X mm", "Z mm"}, {1, 2, "Y mm", "Z mm"}};
   const auto every_line = [&](const PicturePlane& plane, auto&& visit) {

@@ -17,11 +17,12 @@ MechanicsTruth draw_mechanics(const Grade& grade, std::uint64_t seed, std::uint3
 
 /// The mechanics of every servo axis of `machine`, by its name.
 std::map<std::string, DriveTruth> draw_drives(const Grade& grade, std::uint64_t seed,
-                                              const MachineOutline& machine);
+                                              const machine::MachineOutline& machine);
 
 /// The beam of a gantry that moves along linear axis `axis` (0 .. 2): its misalignment, and the vibration of
 /// one side against the other. Its feet are at the ends of the travel of the axis across it (X, or Y of a
 /// gantry along X).
-BeamTruth draw_beam(const Grade& grade, std::uint64_t seed, const MachineOutline& machine, std::size_t axis);
+BeamTruth draw_beam(const Grade& grade, std::uint64_t seed, const machine::MachineOutline& machine,
+                    std::size_t axis);
 
 }  // namespace trunnion::truth

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "truth/probe_orientation.hpp"
+#include "touch_probe/probe_orientation.hpp"
 
 #include "geometry/angle.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::touch_probe {
 
 ProbeOrientation::ProbeOrientation(const geometry::ChainParameters& design) {
   const auto made = geometry::Chain::make(design);
@@ -21,4 +21,4 @@ geometry::Vec3 ProbeOrientation::across(const geometry::Angles& degrees) const {
   return out;
 }
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::touch_probe

@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "truth/random_source.hpp"
-#include "truth/solid.hpp"
+#include "geometry/random_source.hpp"
+#include "touch_probe/solid.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::touch_probe {
 
 struct TouchProbeTruth {
   double ball_radius = 3;    ///< mm
@@ -40,9 +40,6 @@ struct ProbePose {
   Vec3 across = Vec3::UnitX(), axis = Vec3::UnitZ();
 };
 
-/// The contact of the probe, followed from motion to motion. The solids are rigid, so the depth of the ball
-/// in them is its deflection. The contact opens when the depth reaches the pre-travel and closes when the
-/// ball is `reseat` off the surface; every touch draws one random number.
 /// What a probe keeps while nothing reads its signal: where its random numbers are, and its touches so far.
 struct TouchMemory {
   std::uint64_t random = 0;
@@ -50,6 +47,9 @@ struct TouchMemory {
   std::uint64_t touches = 0;
 };
 
+/// The contact of the probe, followed from motion to motion. The solids are rigid, so the depth of the ball
+/// in them is its deflection. The contact opens when the depth reaches the pre-travel and closes when the
+/// ball is `reseat` off the surface; every touch draws one random number.
 class TouchProbe {
  public:
   static constexpr double reseat = 1e-3;  ///< mm
@@ -66,7 +66,7 @@ class TouchProbe {
   bool signal() const { return signal_; }
   TouchMemory memory() const { return {random_.state(), noise_, touches_}; }
   void restore(const TouchMemory& memory) {
-    random_ = RandomSource(memory.random);
+    random_ = geometry::RandomSource(memory.random);
     noise_ = memory.noise, touches_ = static_cast<std::uint32_t>(memory.touches);
   }
   /// Switched off, the probe gives no signal.
@@ -90,7 +90,7 @@ class TouchProbe {
 
   TouchProbeTruth truth_;
   std::vector<Solid> solids_;
-  RandomSource random_;
+  geometry::RandomSource random_;
   double noise_ = 0;              // mm, of the next touch
   std::array<double, 3> ball_{};  // mm, where the newest motion has ended
   double margin_ = 0;             // mm there until the contact opens
@@ -101,4 +101,4 @@ class TouchProbe {
   std::uint32_t touches_ = 0;
 };
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::touch_probe

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "truth/touch_probe.hpp"
+#include "touch_probe/touch_probe.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace trunnion::truth {
+namespace trunnion::touch_probe {
 namespace {
 
 TEST(Solid, DistancesOfSphereCuboidAndRing) {
@@ -198,4 +198,4 @@ TEST(TouchProbe, FaultsBeginAtTheirTouch) {
 }
 
 }  // namespace
-}  // namespace trunnion::truth
+}  // namespace trunnion::touch_probe

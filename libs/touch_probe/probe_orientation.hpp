@@ -6,7 +6,7 @@
 
 #include "geometry/chain.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::touch_probe {
 
 class ProbeOrientation {
  public:
@@ -19,4 +19,4 @@ class ProbeOrientation {
   std::vector<geometry::OrientingAxis> axes_;  // from the workpiece to the tool
 };
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::touch_probe

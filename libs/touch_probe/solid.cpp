@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "truth/solid.hpp"
+#include "touch_probe/solid.hpp"
 
 #include <algorithm>
 
-namespace trunnion::truth {
+namespace trunnion::touch_probe {
 namespace {
 
 // Of a rectangle in the plane of a radius and the axis.
@@ -57,4 +57,4 @@ Vec3 outward(const Solid& solid, const Vec3& point) {
   return length > 0 ? Vec3(gradient / length) : Vec3(Vec3::UnitZ());
 }
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::touch_probe

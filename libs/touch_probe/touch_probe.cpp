@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "truth/touch_probe.hpp"
+#include "touch_probe/touch_probe.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "geometry/angle.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::touch_probe {
 
 double pre_travel(const TouchProbeTruth& probe, const Vec3& normal) {
   const double across = std::sqrt(normal.x() * normal.x() + normal.y() * normal.y());
@@ -126,4 +126,4 @@ std::optional<double> TouchProbe::move(const ProbePose& pose, double duration) {
   return edge;
 }
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::touch_probe

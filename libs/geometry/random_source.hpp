@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace trunnion::truth {
+namespace trunnion::geometry {
 
 /// SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014). Its state is one
 /// number.
@@ -39,4 +39,4 @@ class RandomSource {
   std::uint64_t state_;
 };
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::geometry

@@ -4,9 +4,12 @@
 
 #include <variant>
 
-#include "truth/true_geometry.hpp"
+#include "geometry/types.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::touch_probe {
+
+using geometry::Mat3;
+using geometry::Vec3;
 
 struct SphereGauge {
   Vec3 centre = Vec3::Zero();
@@ -44,4 +47,4 @@ double signed_distance(const Solid& solid, const Vec3& point);
 /// Unit vector out of the material at the point of the surface that is nearest.
 Vec3 outward(const Solid& solid, const Vec3& point);
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::touch_probe
