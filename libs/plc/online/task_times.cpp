@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plc_online/task_times.hpp"
+#include "plc/online/task_times.hpp"
 
 #include <array>
 #include <stdexcept>

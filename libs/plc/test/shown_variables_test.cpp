@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plc_online/shown_variables.hpp"
+#include "plc/online/shown_variables.hpp"
 
 #include <gtest/gtest.h>
 
