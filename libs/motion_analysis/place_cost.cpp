@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/place_cost.hpp"
+#include "motion_analysis/place_cost.hpp"
 
 #include <fmt/core.h>
 

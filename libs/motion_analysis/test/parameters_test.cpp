@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "analysis/program_run.hpp"
+#include "motion_analysis/plan_report.hpp"
 
 namespace trunnion::analysis {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/limit_check.hpp"
+#include "motion_analysis/limit_check.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/contour_check.hpp"
-#include "analysis/limit_check.hpp"
-#include "analysis/lower_bound.hpp"
 #include "motion/trajectory.hpp"
+#include "motion_analysis/contour_check.hpp"
+#include "motion_analysis/limit_check.hpp"
+#include "motion_analysis/lower_bound.hpp"
 
 namespace trunnion::analysis {
 

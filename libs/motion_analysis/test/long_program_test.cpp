@@ -8,7 +8,7 @@
 
 #include "analysis/check_program.hpp"
 #include "analysis/default_machine.hpp"
-#include "analysis/program_run.hpp"
+#include "motion_analysis/plan_report.hpp"
 #include "testing_support/allocation_count.hpp"
 
 namespace trunnion::analysis {

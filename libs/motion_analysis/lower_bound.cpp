@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/lower_bound.hpp"
+#include "motion_analysis/lower_bound.hpp"
 
 #include <algorithm>
 #include <cmath>

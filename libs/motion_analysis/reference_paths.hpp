@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/offline_run.hpp"
+#include "motion_analysis/offline_run.hpp"
 
 namespace trunnion::analysis {
 

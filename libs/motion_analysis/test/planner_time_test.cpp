@@ -9,8 +9,8 @@
 #include <ostream>
 #include <random>
 
-#include "analysis/program_run.hpp"
-#include "analysis/reference_paths.hpp"
+#include "motion_analysis/plan_report.hpp"
+#include "motion_analysis/reference_paths.hpp"
 
 namespace trunnion::analysis {
 namespace {

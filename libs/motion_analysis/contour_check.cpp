@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/contour_check.hpp"
+#include "motion_analysis/contour_check.hpp"
 
 #include <algorithm>
 #include <cmath>

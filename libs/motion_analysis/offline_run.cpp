@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/offline_run.hpp"
+#include "motion_analysis/offline_run.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/lower_bound.hpp"
 #include "motion/axis_motion.hpp"
 #include "motion/path_segment.hpp"
+#include "motion_analysis/lower_bound.hpp"
 
 namespace trunnion::analysis {
 

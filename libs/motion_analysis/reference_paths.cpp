@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/reference_paths.hpp"
+#include "motion_analysis/reference_paths.hpp"
 
 #include <fmt/core.h>
 

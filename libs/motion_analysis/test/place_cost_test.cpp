@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where time is lost: a motion written by hand, and the text of a place.
-#include "analysis/place_cost.hpp"
+#include "motion_analysis/place_cost.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "analysis/lower_bound.hpp"
-#include "analysis/reference_paths.hpp"
+#include "motion_analysis/lower_bound.hpp"
+#include "motion_analysis/reference_paths.hpp"
 #include "testing_support/rounds.hpp"
 
 namespace trunnion::analysis {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/reference_paths.hpp"
+#include "motion_analysis/reference_paths.hpp"
 
 namespace trunnion::analysis {
 

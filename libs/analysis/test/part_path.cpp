@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/part_path.hpp"
+#include "part_path.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/time_scaling.hpp"
+#include "motion_analysis/time_scaling.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,8 +6,8 @@
 #include <functional>
 #include <numbers>
 
-#include "analysis/lower_bound.hpp"
-#include "analysis/reference_paths.hpp"
+#include "motion_analysis/lower_bound.hpp"
+#include "motion_analysis/reference_paths.hpp"
 
 namespace trunnion::analysis {
 namespace {

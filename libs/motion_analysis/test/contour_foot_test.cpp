@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "analysis/contour_check.hpp"
+#include "motion_analysis/contour_check.hpp"
 
 namespace trunnion::analysis {
 namespace {

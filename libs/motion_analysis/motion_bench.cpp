@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/motion_bench.hpp"
+#include "motion_analysis/motion_bench.hpp"
 
-#include "analysis/lower_bound.hpp"
+#include "motion_analysis/lower_bound.hpp"
 
 namespace trunnion::analysis {
 namespace {

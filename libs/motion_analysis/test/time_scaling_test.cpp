@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The least time of a motion on its own path, against times known otherwise.
-#include "analysis/time_scaling.hpp"
+#include "motion_analysis/time_scaling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "analysis/limit_check.hpp"
+#include "motion_analysis/limit_check.hpp"
 
 namespace trunnion::analysis {
 namespace {
