@@ -25,12 +25,6 @@ double path_acceleration(const Rates& rates, double x, const motion::Limits& lim
 
 }  // namespace
 
-double acceleration_bound(const std::vector<PathSample>& path, const motion::Limits& limits) {
-  AccelerationBound bound(limits);
-  for (const PathSample& sample : path) bound.add(sample);
-  return bound.finish();
-}
-
 void AccelerationBound::add(const PathSample& sample) {
   constexpr std::size_t window_samples = 20000;
   window_.push_back(sample);

@@ -21,10 +21,7 @@ struct PathSample {
 /// Time-optimal sweep: with x = (ds/dt)^2 every axis demands |q' x' / 2 + q'' x| <= a and |q'| sqrt(x) <= v;
 /// the largest x that keeps this forwards from rest and backwards from rest is the bound. Derivatives are
 /// central differences of the samples, so a corner between samples counts as rounded over their distance.
-/// Seconds. Needs at least two samples.
-double acceleration_bound(const std::vector<PathSample>& path, const motion::Limits& limits);
-
-/// The same for a path of any length in constant memory.
+/// At least two samples, of a path of any length in constant memory.
 class AccelerationBound {
  public:
   explicit AccelerationBound(const motion::Limits& limits) : limits_(limits) {}

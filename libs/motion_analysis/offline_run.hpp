@@ -39,7 +39,7 @@ RunReport run_commands(const MachineModel& machine, const AxisValues& start,
                        const std::vector<language::Command>& program, const OverrideHistory& overrides = {},
                        std::size_t most_cycles = 10000000, bool check_contour = true);
 
-/// Bound of acceleration_bound() for the same program, sampled every `step` mm (or degrees) or closer; rapids
+/// AccelerationBound of the same program, sampled every `step` mm (or degrees) or closer; rapids
 /// and feeds as programmed at override 1.
 double command_bound(const MachineModel& machine, const AxisValues& start,
                      language::Transformation transformation, double tool_length,

@@ -17,7 +17,7 @@ namespace trunnion::analysis {
 struct PlanReport {
   ProgramResult result;
   double motion_time = 0;           ///< s, from the first to the last change of any axis
-  double bound = 0;                 ///< s, of acceleration_bound over the moves
+  double bound = 0;                 ///< s, of AccelerationBound over the moves
   double least_time = 0;            ///< s, of LeastTime over the planned motion: its path under all limits
   std::vector<CostlyPlace> places;  ///< that cost most, the costliest first
   std::array<AxisRatios, language::axis_count> axes{};

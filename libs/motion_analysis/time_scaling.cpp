@@ -209,10 +209,8 @@ class Scaling {
 }  // namespace
 
 std::vector<double> least_time_scaling(const std::vector<MotionSample>& samples, const motion::Limits& limits,
-                                       double cycle) {
-  std::vector<double> begin(samples.size(), first_share);
-  if (samples.size() < fewest_samples) return begin;
-  return Scaling(samples, limits, cycle, begin, false, true).solve();
+                                       double cycle, std::vector<double> begin, bool continues, bool ends) {
+  return Scaling(samples, limits, cycle, std::move(begin), continues, ends).solve();
 }
 
 void LeastTime::add(const MotionSample& sample) {
@@ -266,7 +264,7 @@ bool LeastTime::add_at_constant_speed(const MotionSample& sample) {
 void LeastTime::solve_up_to_constant_speed() {
   std::vector<double> b = before_;
   b.resize(window_.size(), first_share);
-  b = Scaling(window_, limits_, cycle_, b, !before_.empty(), false).solve();
+  b = least_time_scaling(window_, limits_, cycle_, std::move(b), !before_.empty(), false);
   const std::size_t solved = window_.size() - 2 * margin_;
   count(b, solved);
   window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(solved));
@@ -286,7 +284,8 @@ void LeastTime::solve(bool ends) {
   const bool continues = !before_.empty();
   std::vector<double> b = before_;
   b.resize(window_.size(), first_share);
-  if (window_.size() >= fewest_samples) b = Scaling(window_, limits_, cycle_, b, continues, ends).solve();
+  if (window_.size() >= fewest_samples)
+    b = least_time_scaling(window_, limits_, cycle_, std::move(b), continues, ends);
   count(b, ends ? b.size() : kept_samples);
   if (ends) {
     before_.clear();

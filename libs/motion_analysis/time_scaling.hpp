@@ -26,10 +26,12 @@ struct MotionSample {
 /// below it, each by a logarithmic barrier and Newton's method. Every iterate keeps all rows, b = 1 is the
 /// motion itself. Derivatives are central differences of the samples, so a detail shorter than three cycles
 /// is smoothed. It shares no code with the planner.
-/// `samples`: one per cycle of `cycle` seconds, from rest to rest. Returns b at every sample. Where the given
-/// motion does not keep the limits, b is reduced; b changes by at most a tenth in a cycle.
+/// `samples`: one per cycle of `cycle` seconds, at least eight; `begin`: b at every one of them, from which
+/// the search begins. The first two keep it when the motion `continues` another one, the last two unless it
+/// `ends` with them. Returns b at every sample. Where the given motion does not keep the limits, b is
+/// reduced; b changes by at most a tenth in a cycle.
 std::vector<double> least_time_scaling(const std::vector<MotionSample>& samples, const motion::Limits& limits,
-                                       double cycle);
+                                       double cycle, std::vector<double> begin, bool continues, bool ends);
 
 /// The same for a motion of any length in constant memory: windows that overlap. The path between two
 /// standstills is one section; the time at a standstill does not count. Where the motion keeps its programmed

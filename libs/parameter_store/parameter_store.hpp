@@ -79,9 +79,6 @@ class ParameterStore {
   std::string problem_;
 };
 
-/// The lines of a journal that are whole: a crash may leave a torn last one.
-std::vector<std::string> read_journal(const std::string& text);
-
 inline constexpr const char* parameters_file = "parameters.yaml";
 inline constexpr const char* active_file = "active.yaml";
 inline constexpr const char* journal_file = "journal.jsonl";

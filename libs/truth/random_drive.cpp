@@ -8,7 +8,10 @@
 #include "geometry/random_source.hpp"
 
 namespace trunnion::truth {
+namespace {
 
+// `axis`: any number that tells the axes apart. Frequencies stay where the steps of the simulation permit
+// them. `turns`: backlash in deg.
 MechanicsTruth draw_mechanics(const Grade& grade, std::uint64_t seed, std::uint32_t axis, bool turns) {
   // Another stream than that of the geometry.
   geometry::RandomSource random(seed * 0x2545f4914f6cdd1d + 0x1000 + axis);
@@ -30,6 +33,8 @@ MechanicsTruth draw_mechanics(const Grade& grade, std::uint64_t seed, std::uint3
   m.cogging_phase = 360 * random.uniform();
   return m;
 }
+
+}  // namespace
 
 std::map<std::string, DriveTruth> draw_drives(const Grade& grade, std::uint64_t seed,
                                               const machine::MachineOutline& machine) {

@@ -10,12 +10,8 @@
 
 namespace trunnion::truth {
 
-/// Draws the mechanics of axis `axis` (any number that tells the axes apart). Frequencies stay where the
-/// steps of the simulation permit them. `turns`: backlash in deg. The same bits for the same arguments on
-/// every host.
-MechanicsTruth draw_mechanics(const Grade& grade, std::uint64_t seed, std::uint32_t axis, bool turns);
-
-/// The mechanics of every servo axis of `machine`, by its name.
+/// The mechanics of every servo axis of `machine`, by its name. The same bits for the same arguments on every
+/// host.
 std::map<std::string, DriveTruth> draw_drives(const Grade& grade, std::uint64_t seed,
                                               const machine::MachineOutline& machine);
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "motion_analysis/lower_bound.hpp"
+#include "acceleration_bound.hpp"
 #include "motion_analysis/reference_paths.hpp"
 
 namespace trunnion::analysis {

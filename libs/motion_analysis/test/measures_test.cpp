@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "acceleration_bound.hpp"
 #include "motion_analysis/contour_check.hpp"
 #include "motion_analysis/limit_check.hpp"
-#include "motion_analysis/lower_bound.hpp"
 
 namespace trunnion::analysis {
 namespace {

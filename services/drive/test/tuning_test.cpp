@@ -73,8 +73,9 @@ Drawn draw(std::uint64_t seed) {
   set(parameter::position_gain, 5, 60);
   set(parameter::speed_gain, 50, 800);
   set(parameter::speed_integral_time, 3, 100);
-  d.truth["X"].mechanics =
-      truth::draw_mechanics(truth::grades()[seed % truth::grades().size()], seed, 0, false);
+  machine::MachineOutline machine;
+  machine.drives = {"X"};
+  d.truth = truth::draw_drives(truth::grades()[seed % truth::grades().size()], seed, machine);
   const bool full = seed % 2 == 0;
   if (full) {
     d.parameters.values[parameter::full_closed_loop.number(0)] = {1, ""};
