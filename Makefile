@@ -51,9 +51,9 @@ cmake_configure = mkdir -p build; echo "Configuring build/$(1)"; \
 
 # The unit tests under the address and undefined-behaviour sanitizers. PART=foreign: those of what reads bytes that others have
 # written - programs, configuration, files of the state directory, recordings, the network.
-foreign := access bus commands error_tables gateway_core http_client language machine machine_state measurement parameter_store \
-  plc plc_language plc_modbus plc_online program_store programs recorder recording service snapshot storage text tool_tables truth \
-  verification
+foreign := access bus commands gateway_core http_client language machine machine_state measurement parameter_store \
+  plc plc_language plc_modbus plc_online program_store programs recorder recording service snapshot storage text truth \
+  verification volumetric_compensation
 sanitize: packages
 	@$(call cmake_configure,sanitize)
 	cmake --build --preset sanitize $(if $(PART),--target $(addsuffix _test,$($(PART))))

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "plc_online/task_times.hpp"
+#include "plc/online/task_times.hpp"
 
 namespace trunnion::gateway {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "answer.hpp"
 #include "mailbox.hpp"
-#include "plc_online/shown_variables.hpp"
+#include "plc/online/shown_variables.hpp"
 #include "src/plc_requests.hpp"
 #include "src/router.hpp"
 #include "src/worker.hpp"

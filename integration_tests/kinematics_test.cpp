@@ -3,7 +3,7 @@
 // of the library.
 #include <fstream>
 
-#include "analysis/part_path.hpp"
+#include "analysis/test/part_path.hpp"
 #include "cluster_harness.hpp"
 #include "machine/axes.hpp"
 #include "machine/machine.hpp"

@@ -34,8 +34,8 @@ struct CircleOptions {
   std::uint16_t channel = 0;
 };
 
-void write_readings(const std::string& path, const std::vector<circular_tests::RadialReading>& ccw,
-                    const std::vector<circular_tests::RadialReading>& cw) {
+void write_readings(const std::string& path, const std::vector<geometry::RadialReading>& ccw,
+                    const std::vector<geometry::RadialReading>& cw) {
   std::string lines = "sense,angle_deg,deviation_um\n";
   for (const auto* readings : {&ccw, &cw})
     for (const auto& r : *readings)

@@ -11,7 +11,7 @@
 #include "canonical/axes.hpp"
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
-#include "error_tables/table_parameters.hpp"
+#include "compensation/table_parameters.hpp"
 #include "machine/machine.hpp"
 #include "machine/yaml.hpp"
 #include "machine_directory.hpp"

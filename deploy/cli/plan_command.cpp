@@ -11,10 +11,10 @@
 
 #include "analysis/file_source.hpp"
 #include "analysis/program_folders.hpp"
-#include "analysis/program_run.hpp"
 #include "cluster/cluster_files.hpp"
 #include "collision_machine.hpp"
 #include "commands.hpp"
+#include "motion_analysis/plan_report.hpp"
 #include "plan_picture.hpp"
 
 namespace trunnion::cli {

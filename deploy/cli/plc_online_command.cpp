@@ -11,7 +11,7 @@
 #include "bus/json.hpp"
 #include "cluster/operating_station.hpp"
 #include "interrupt_watch.hpp"
-#include "plc_online/task_times.hpp"
+#include "plc/online/task_times.hpp"
 #include "plc_session.hpp"
 
 namespace trunnion::cli {

@@ -15,8 +15,8 @@
 #include "commands.hpp"
 #include "machine/parameters.hpp"
 #include "machine/yaml.hpp"
+#include "parameter_store/machine_tables.hpp"
 #include "storage/temporary_directory.hpp"
-#include "tool_tables/machine_tables.hpp"
 
 namespace trunnion::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "api.hpp"
 #include "http/transport.hpp"
 #include "http/viewer.hpp"
-#include "plc_online/shown_variables.hpp"
+#include "plc/online/shown_variables.hpp"
 
 namespace trunnion::gateway {
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <stdexcept>
 
 namespace trunnion::gateway {
@@ -75,26 +76,6 @@ std::string gzip(std::string_view text, int level) {
   deflateEnd(&stream);
   if (status != Z_STREAM_END) throw std::runtime_error("gzip: not finished");
   return packed;
-}
-
-std::optional<std::string> gunzip(std::string_view bytes, std::size_t most) {
-  z_stream stream{};
-  if (inflateInit2(&stream, with_gzip_header) != Z_OK) return {};
-  stream.next_in = bytes_of(bytes);
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  std::string text;
-  int status = Z_OK;
-  while (status == Z_OK && text.size() <= most) {
-    char part[16384];
-    stream.next_out = reinterpret_cast<Bytef*>(part);
-    stream.avail_out = sizeof part;
-    status = inflate(&stream, Z_NO_FLUSH);
-    text.append(part, sizeof part - stream.avail_out);
-    if (status == Z_OK && stream.avail_in == 0 && stream.avail_out > 0) break;
-  }
-  inflateEnd(&stream);
-  if (status != Z_STREAM_END || text.size() > most) return {};
-  return text;
 }
 
 }  // namespace trunnion::gateway

@@ -2,7 +2,6 @@
 // gzip (RFC 1952) as a content coding of HTTP.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,8 +18,5 @@ bool is_compressible(std::string_view type);
 
 /// `level` from 1 (fastest) to 9 (smallest). The same bytes for the same text.
 std::string gzip(std::string_view text, int level);
-
-/// What gzip() was given; nothing when `bytes` is damaged, cut off or unpacks to more than `most` bytes.
-std::optional<std::string> gunzip(std::string_view bytes, std::size_t most);
 
 }  // namespace trunnion::gateway

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "gateway_fixture.hpp"
+#include "gunzip.hpp"
 #include "held_connections.hpp"
 #include "src/compression.hpp"
 
@@ -165,7 +166,7 @@ TEST_F(Gateway, CompressesLongAnswersAndThePageForThoseWhoPermitIt) {
   EXPECT_EQ(packed.headers.at("content-encoding"), "gzip");
   EXPECT_EQ(packed.headers.at("vary"), "Accept-Encoding");
   EXPECT_LT(packed.body.size() * 4, plain.body.size());
-  EXPECT_EQ(gunzip(packed.body, 16u << 20), plain.body);
+  EXPECT_EQ(gunzip(packed.body), plain.body);
   EXPECT_FALSE(with("/api/plc/image", "br").headers.contains("content-encoding"));
   EXPECT_FALSE(with("/api/parameters/100034", "gzip").headers.contains("content-encoding")) << "short";
 
@@ -175,7 +176,7 @@ TEST_F(Gateway, CompressesLongAnswersAndThePageForThoseWhoPermitIt) {
   const auto script = with("/app.js", "gzip");
   EXPECT_EQ(script.headers.at("content-encoding"), "gzip");
   EXPECT_EQ(script.headers.at("content-type"), "text/javascript; charset=utf-8");
-  EXPECT_EQ(gunzip(script.body, 100), "the script");
+  EXPECT_EQ(gunzip(script.body), "the script");
   EXPECT_EQ(get("/app.js").body, "the script");
 }
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tool_tables/machine_tables.hpp"
+#include "parameter_store/machine_tables.hpp"
 
 namespace trunnion::gateway {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tool_tables/machine_tables.hpp"
+#include "parameter_store/machine_tables.hpp"
 
 namespace trunnion::gateway {
 namespace {

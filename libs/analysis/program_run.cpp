@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/program_run.hpp"
 
-#include <algorithm>
 #include <memory>
 
-#include "analysis/time_scaling.hpp"
-
-#include "motion/axis_motion.hpp"
 #include "motion/trajectory.hpp"
 #include "program_execution/program_reader.hpp"
 
@@ -16,13 +12,6 @@ namespace {
 using language::Command;
 using language::CommandKind;
 using program_execution::Ending;
-
-bool is_move(const Command& command) {
-  return command.kind == CommandKind::rapid || command.kind == CommandKind::line ||
-         command.kind == CommandKind::arc || command.kind == CommandKind::dwell;
-}
-
-constexpr std::uint64_t no_limit = 100000000;  // cycles
 
 constexpr std::uint64_t cycles_between_stops = 256;
 
@@ -132,60 +121,17 @@ class Runner final : public program_execution::ProgramMotion {
 
 }  // namespace
 
+bool is_move(const Command& command) {
+  return command.kind == CommandKind::rapid || command.kind == CommandKind::line ||
+         command.kind == CommandKind::arc || command.kind == CommandKind::dwell;
+}
+
 ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
                           const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
                           const std::function<void(const Command&, const FrameMoves&)>& moves,
                           std::uint64_t most_cycles, program_execution::MoveGuard* guard,
                           const std::function<bool()>& stop) {
   return std::make_unique<Runner>(machine, sink, moves, most_cycles, guard, stop)->run(text, start);
-}
-
-PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
-                        const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
-                        program_execution::MoveGuard* guard) {
-  PlanReport report;
-  const motion::Limits& limits = machine.limits();
-  LimitCheck check(limits, start, machine.cycle_seconds());
-  ContourCheck contour(start, limits.contour_tolerance, limits.orientation_tolerance);
-  motion::Limits effective = limits;
-  for (motion::AxisLimits& axis : effective.axes)
-    axis.jerk = std::min(axis.jerk, axis.acceleration / (limits.smoothing_cycles * machine.cycle_seconds()));
-  LeastTime least(effective, machine.cycle_seconds());
-  MachineModel model{limits, machine.chain(), machine.cycle_seconds()};
-  CommandBound bound(model);
-  bound.begin(start, language::Transformation::none, 0);
-  PlaceCost places(effective, machine.cycle_seconds());
-  const auto close = [&](const FrameMoves& next) {
-    report.bound += bound.finish();
-    bound.begin(next.start, next.transformation, next.tool_length);
-    contour.jump(next.start);
-  };
-  report.result = run_program(
-      text, machine, start,
-      [&](const PlannedCycle& cycle) {
-        check.add(cycle.machine, cycle.setpoint->rapid);
-        const motion::Setpoint& now = *cycle.setpoint;
-        least.add(
-            {cycle.machine, now.programmed_speed > 0 ? now.path_speed / now.programmed_speed : 0, now.rapid});
-        const Deviation d = contour.of(cycle.position, cycle.setpoint->sequence);
-        report.deviation.contour = std::max(report.deviation.contour, d.contour);
-        report.deviation.orientation = std::max(report.deviation.orientation, d.orientation);
-        contour.forget(cycle.setpoint->sequence);
-        places.add(cycle.machine, now);
-        if (sink) sink(cycle);
-      },
-      [&](const Command& command, const FrameMoves& frame) {
-        if (!is_move(command)) return close(frame);
-        bound.add(command);
-        contour.add(command);
-      },
-      no_limit, guard);
-  report.bound += bound.finish();
-  report.places = places.finish();
-  report.motion_time = static_cast<double>(check.moving_cycles()) * machine.cycle_seconds();
-  report.least_time = least.finish();
-  report.axes = check.axes();
-  return report;
 }
 
 }  // namespace trunnion::analysis

@@ -4,15 +4,15 @@
 
 #include <functional>
 #include <string>
-#include <vector>
 
-#include "analysis/offline_run.hpp"
-#include "analysis/place_cost.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "language/interpreter.hpp"
+#include "motion/interpolation.hpp"
 #include "program_execution/move_guard.hpp"
 
 namespace trunnion::analysis {
+
+using language::AxisValues;
 
 /// What would be sent in one cycle.
 struct PlannedCycle {
@@ -38,6 +38,9 @@ struct ProgramResult {
   std::uint64_t cycles = 0;
 };
 
+/// A rapid, line, arc or dwell.
+bool is_move(const language::Command& command);
+
 /// Runs `text` from the machine position `start`: every cycle goes to `sink`, every stretch of moves to
 /// `frames`, before its cycles; both may be empty. `most_cycles` ends a program that does not. `guard` looks
 /// at the moves as in the channel; it may be null. `stop` is asked every few hundred cycles, where the axes
@@ -48,20 +51,5 @@ ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetu
                           std::uint64_t most_cycles = 100000000,
                           program_execution::MoveGuard* guard = nullptr,
                           const std::function<bool()>& stop = {});
-
-/// Everything the command `plan` reports.
-struct PlanReport {
-  ProgramResult result;
-  double motion_time = 0;           ///< s, from the first to the last change of any axis
-  double bound = 0;                 ///< s, of acceleration_bound over the moves
-  double least_time = 0;            ///< s, of LeastTime over the planned motion: its path under all limits
-  std::vector<CostlyPlace> places;  ///< that cost most, the costliest first
-  std::array<AxisRatios, language::axis_count> axes{};
-  Deviation deviation;
-};
-
-PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
-                        const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
-                        program_execution::MoveGuard* guard = nullptr);
 
 }  // namespace trunnion::analysis

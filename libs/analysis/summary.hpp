@@ -20,15 +20,6 @@ class Summary {
   /// Readable lines; `blocks` as language::Interpreter::blocks().
   void print(std::ostream& out, std::uint64_t blocks) const;
 
-  std::uint64_t rapids() const { return rapids_; }
-  std::uint64_t lines() const { return lines_; }
-  std::uint64_t arcs() const { return arcs_; }
-  double rapid_length() const { return rapid_length_; }  ///< mm
-  double feed_length() const { return feed_length_; }    ///< mm
-  /// Minutes at the programmed feed; without rapids, accelerations and tool changes.
-  double feed_minutes() const { return feed_minutes_; }
-  double dwell_seconds() const { return dwell_seconds_; }
-  const std::set<std::uint32_t>& tools() const { return tools_; }
   /// Extents of the control point in machine coordinates; of a motion whose axes turn under tool tip control,
   /// those of its ends.
   const language::AxisValues& lowest() const { return lowest_; }

@@ -9,7 +9,7 @@
 
 #include "geometry/angle.hpp"
 #include "machine/yaml.hpp"
-#include "truth/truth_reader.hpp"
+#include "machine/yaml_reader.hpp"
 
 namespace trunnion::calibration {
 
@@ -45,7 +45,7 @@ bool is(const std::optional<geometry::RotaryAxis>& axis, std::size_t angle, cons
 
 double sine(double degrees) { return geometry::sine_cosine(degrees).sine; }
 
-truth::Limits limits_of(const std::string& name) {
+machine::Limits limits_of(const std::string& name) {
   if (name == "alpha") return {5, 90};
   if (name == "tool_radius" || name == "arbor_diameter") return {1e-3, 1000};
   return {-1e5, 1e5};
@@ -90,7 +90,7 @@ Readings parse_readings(const std::string& text, const std::string& file, Manual
     if (!all.empty()) all += ", ";
     all += name;
   }
-  const truth::TruthReader reader(file);
+  const machine::YamlReader reader(file);
   Readings readings;
   const auto root = machine::parse_yaml(text, file);
   reader.each(root, all, [&](const std::string& key, const YAML::Node& node) {

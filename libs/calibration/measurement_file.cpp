@@ -6,16 +6,16 @@
 #include <cmath>
 
 #include "machine/yaml.hpp"
-#include "truth/truth_reader.hpp"
+#include "machine/yaml_reader.hpp"
 
 namespace trunnion::calibration {
 namespace {
 
-using truth::Limits;
+using machine::Limits;
 
 constexpr Limits place{-1e5, 1e5}, any_angle{-1e6, 1e6};
 
-ReferenceMeasurement read_reference(const truth::TruthReader& reader, const YAML::Node& map) {
+ReferenceMeasurement read_reference(const machine::YamlReader& reader, const YAML::Node& map) {
   ReferenceMeasurement found;
   reader.each(map, "sphere_mm, zero_offset_mm", [&](const std::string& key, const YAML::Node& node) {
     if (key == "sphere_mm") return found.sphere = reader.vector(node, place), true;
@@ -204,7 +204,7 @@ class InputReader {
     return static_cast<std::size_t>(value);
   }
 
-  truth::TruthReader reader_;
+  machine::YamlReader reader_;
   const MeasuredMachine& machine_;
   MeasurementInputs in_;
 };
@@ -217,7 +217,7 @@ MeasurementInputs parse_inputs(const std::string& text, const std::string& file,
 }
 
 ReferenceMeasurement parse_reference(const std::string& text, const std::string& file) {
-  return read_reference(truth::TruthReader(file), machine::parse_yaml(text, file));
+  return read_reference(machine::YamlReader(file), machine::parse_yaml(text, file));
 }
 
 std::string text_of(const ReferenceMeasurement& reference) {

@@ -63,7 +63,7 @@ MeasuredMachine measured_machine(const std::string& name, const machine::Paramet
   measured.model = machine::chain_parameters(active, channel);
   if (!std::holds_alternative<geometry::Chain>(geometry::Chain::make(measured.model)))
     throw std::runtime_error("the kinematic parameters are invalid");
-  measured.outline = truth::outline_of(delivered, channel);
+  measured.outline = machine::outline_of(delivered, channel);
   return measured;
 }
 
@@ -120,11 +120,11 @@ std::string fault_of(const MeasurementInputs& in, const MeasuredMachine& machine
   return "";
 }
 
-std::optional<ProbeAndSphere> probe_and_sphere(const std::optional<truth::TouchProbeTruth>& probe,
-                                               const std::vector<truth::Solid>& solids) {
+std::optional<ProbeAndSphere> probe_and_sphere(const std::optional<touch_probe::TouchProbeTruth>& probe,
+                                               const std::vector<touch_probe::Solid>& solids) {
   if (!probe) return std::nullopt;
   for (const auto& solid : solids) {
-    const auto* sphere = std::get_if<truth::SphereGauge>(&solid);
+    const auto* sphere = std::get_if<touch_probe::SphereGauge>(&solid);
     if (sphere == nullptr) continue;
     ProbeAndSphere out{probe->length, 2 * probe->ball_radius, sphere->centre, 2 * sphere->radius, {}, 0};
     if (sphere->shaft_radius > 0) out.shaft = sphere->shaft, out.shaft_diameter = 2 * sphere->shaft_radius;

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "machine/machine_outline.hpp"
 #include "metrology/chain_vectors.hpp"
-#include "truth/machine_outline.hpp"
-#include "truth/touch_probe.hpp"
+#include "touch_probe/touch_probe.hpp"
 
 namespace trunnion::calibration {
 
@@ -98,14 +98,14 @@ struct ProbeAndSphere {
   double shaft_diameter = 0;                   ///< mm
 };
 /// Of truth.yaml: the probe, and the first sphere of the solids. Nothing when either is missing.
-std::optional<ProbeAndSphere> probe_and_sphere(const std::optional<truth::TouchProbeTruth>& probe,
-                                               const std::vector<truth::Solid>& solids);
+std::optional<ProbeAndSphere> probe_and_sphere(const std::optional<touch_probe::TouchProbeTruth>& probe,
+                                               const std::vector<touch_probe::Solid>& solids);
 
 /// The machine that is measured.
 struct MeasuredMachine {
   std::string name;
   ChainParameters model;  ///< by which the control moves
-  truth::MachineOutline outline;
+  machine::MachineOutline outline;
   std::optional<ProbeAndSphere> gauges = {};
 };
 

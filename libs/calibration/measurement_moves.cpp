@@ -38,16 +38,18 @@ void check_measuring_path(const collision::BodySet& set, const MeasurementInputs
                            "path or use a larger ball");
 }
 
-void add_probe_and_sphere(collision::MachineBodies& bodies, const std::vector<truth::Solid>& solids,
-                          const std::optional<truth::TouchProbeTruth>& given, const MeasurementInputs& in) {
-  truth::TouchProbeTruth probe;
+void add_probe_and_sphere(collision::MachineBodies& bodies, const std::vector<touch_probe::Solid>& solids,
+                          const std::optional<touch_probe::TouchProbeTruth>& given,
+                          const MeasurementInputs& in) {
+  touch_probe::TouchProbeTruth probe;
   probe.length = in.probe_length, probe.ball_radius = in.ball_diameter / 2;
   const auto& all = bodies.set.bodies;
   if (std::none_of(all.begin(), all.end(), [](const auto& body) { return body.tool; }))
     collision::add_probe(bodies.links, given.value_or(probe), bodies.set);
   if (std::none_of(solids.begin(), solids.end(),
-                   [](const auto& s) { return std::holds_alternative<truth::SphereGauge>(s); }))
-    collision::add_solids(bodies.links, {truth::SphereGauge{in.sphere, in.sphere_diameter / 2}}, bodies.set);
+                   [](const auto& s) { return std::holds_alternative<touch_probe::SphereGauge>(s); }))
+    collision::add_solids(bodies.links, {touch_probe::SphereGauge{in.sphere, in.sphere_diameter / 2}},
+                          bodies.set);
   check_measuring_path(bodies.set, in);
   // Over the sphere the ball is one measuring path from it, less what the sphere is beside its place.
   bodies.set.clearance = std::min(bodies.set.clearance, in.measuring_path / 4);
@@ -55,8 +57,9 @@ void add_probe_and_sphere(collision::MachineBodies& bodies, const std::vector<tr
 
 }  // namespace
 
-MeasurementMoves::MeasurementMoves(collision::MachineBodies bodies, const std::vector<truth::Solid>& solids,
-                                   const std::optional<truth::TouchProbeTruth>& probe,
+MeasurementMoves::MeasurementMoves(collision::MachineBodies bodies,
+                                   const std::vector<touch_probe::Solid>& solids,
+                                   const std::optional<touch_probe::TouchProbeTruth>& probe,
                                    const MeasurementInputs& in, const MeasuredMachine& measured)
     : inputs_(in),
       measured_(measured),

@@ -15,8 +15,8 @@ class MeasurementMoves {
   /// is put on the tool: `probe`, or one of the inputs' dimensions. Where no solid is a sphere, the one that
   /// the inputs expect is added. `inputs` and `measured` must outlive the object. Throws
   /// std::runtime_error, one line, when the measuring path is so long that the stylus would meet the sphere.
-  MeasurementMoves(collision::MachineBodies bodies, const std::vector<truth::Solid>& solids,
-                   const std::optional<truth::TouchProbeTruth>& probe, const MeasurementInputs& inputs,
+  MeasurementMoves(collision::MachineBodies bodies, const std::vector<touch_probe::Solid>& solids,
+                   const std::optional<touch_probe::TouchProbeTruth>& probe, const MeasurementInputs& inputs,
                    const MeasuredMachine& measured);
 
   /// Why the pose cannot be measured: bodies that meet at the approach position or during the touches, in

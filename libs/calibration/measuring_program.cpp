@@ -158,7 +158,8 @@ Way retract_way(const AxisPosition& from, const AxisPosition& to, double top) {
   return way;
 }
 
-AxisPosition nearest_turns(const truth::MachineOutline& outline, const AxisPosition& from, AxisPosition to) {
+AxisPosition nearest_turns(const machine::MachineOutline& outline, const AxisPosition& from,
+                           AxisPosition to) {
   for (std::size_t i = 0; i < to.size(); ++i)
     if (outline.axes[i].way != canonical::RotaryWay::linear)
       to[i] = canonical::rotary_target(canonical::RotaryWay::shortest, to[i], from[i]);

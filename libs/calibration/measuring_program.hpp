@@ -22,7 +22,7 @@ using Way = std::vector<AxisPosition>;
 AxisPosition approach_position(const MeasurementInputs& inputs, const PlannedPose& pose, const Vec3& centre);
 
 /// `to` with the rotary axes that count modulo 360 at most half a turn from `from`.
-AxisPosition nearest_turns(const truth::MachineOutline& outline, const AxisPosition& from, AxisPosition to);
+AxisPosition nearest_turns(const machine::MachineOutline& outline, const AxisPosition& from, AxisPosition to);
 
 /// From `from` to `to` without knowledge of any bodies: Z up to `top`, the rotary axes, X and Y, then Z.
 Way retract_way(const AxisPosition& from, const AxisPosition& to, double top);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "truth/random_source.hpp"
+#include "geometry/random_source.hpp"
 
 namespace trunnion::calibration {
 namespace {
@@ -43,7 +43,7 @@ std::vector<Angles> random_check_poses(const MeasuredMachine& machine, const std
                                        const Vec3& place, double tool_length, std::size_t count,
                                        std::uint64_t seed) {
   const auto chain = chain_of(machine.model);
-  truth::RandomSource random(seed);
+  geometry::RandomSource random(seed);
   std::vector<Angles> poses{Angles{}};
   for (std::size_t tried = 0; poses.size() < count && tried < 100 * count; ++tried) {
     Angles angles{};

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "calibration/measurement_poses.hpp"
+#include "touch_probe/touch_probe.hpp"
 #include "truth/pose_report.hpp"
-#include "truth/touch_probe.hpp"
 
 namespace trunnion::calibration {
 
@@ -48,7 +48,7 @@ std::vector<TouchedPose> touch_poses(const MeasurementInputs& inputs, const Meas
 /// measuring path, or contact before it.
 std::vector<TouchedPose> touch_virtually(const truth::PoseReport& machine, const MeasurementInputs& inputs,
                                          const MeasuredMachine& measured, const MeasurementPlan& plan,
-                                         const truth::TouchProbeTruth& probe,
-                                         const std::vector<truth::Solid>& solids);
+                                         const touch_probe::TouchProbeTruth& probe,
+                                         const std::vector<touch_probe::Solid>& solids);
 
 }  // namespace trunnion::calibration

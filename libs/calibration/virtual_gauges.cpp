@@ -6,9 +6,9 @@
 
 namespace trunnion::calibration {
 
-truth::TouchProbeTruth true_probe(const truth::Truth& truth, const MeasurementInputs& inputs,
-                                  const GaugeChanges& changes) {
-  truth::TouchProbeTruth probe;
+touch_probe::TouchProbeTruth true_probe(const truth::Truth& truth, const MeasurementInputs& inputs,
+                                        const GaugeChanges& changes) {
+  touch_probe::TouchProbeTruth probe;
   probe.length = inputs.probe_length, probe.ball_radius = inputs.ball_diameter / 2;
   if (truth.probe) probe = *truth.probe;
   if (changes.repeatability) probe.repeatability = *changes.repeatability;
@@ -18,15 +18,15 @@ truth::TouchProbeTruth true_probe(const truth::Truth& truth, const MeasurementIn
   return probe;
 }
 
-std::vector<truth::Solid> true_solids(const truth::Truth& truth, const MeasurementInputs& inputs,
-                                      const GaugeChanges& changes) {
+std::vector<touch_probe::Solid> true_solids(const truth::Truth& truth, const MeasurementInputs& inputs,
+                                            const GaugeChanges& changes) {
   auto solids = truth.solids;
   const auto first = std::find_if(solids.begin(), solids.end(), [](const auto& solid) {
-    return std::holds_alternative<truth::SphereGauge>(solid);
+    return std::holds_alternative<touch_probe::SphereGauge>(solid);
   });
-  auto& sphere = std::get<truth::SphereGauge>(
+  auto& sphere = std::get<touch_probe::SphereGauge>(
       first == solids.end()
-          ? solids.emplace_back(truth::SphereGauge{inputs.sphere, inputs.sphere_diameter / 2})
+          ? solids.emplace_back(touch_probe::SphereGauge{inputs.sphere, inputs.sphere_diameter / 2})
           : *first);
   if (changes.sphere) sphere.centre = *changes.sphere;
   return solids;

@@ -19,11 +19,11 @@ struct GaugeChanges {
 };
 
 /// That of truth.yaml; without one, an exact probe as the inputs have it.
-truth::TouchProbeTruth true_probe(const truth::Truth& truth, const MeasurementInputs& inputs,
-                                  const GaugeChanges& changes);
+touch_probe::TouchProbeTruth true_probe(const truth::Truth& truth, const MeasurementInputs& inputs,
+                                        const GaugeChanges& changes);
 
 /// Those of truth.yaml; without a sphere among them, one where the inputs expect it.
-std::vector<truth::Solid> true_solids(const truth::Truth& truth, const MeasurementInputs& inputs,
-                                      const GaugeChanges& changes);
+std::vector<touch_probe::Solid> true_solids(const truth::Truth& truth, const MeasurementInputs& inputs,
+                                            const GaugeChanges& changes);
 
 }  // namespace trunnion::calibration

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "calibration/touches.hpp"
-#include "truth/probe_orientation.hpp"
+#include "touch_probe/probe_orientation.hpp"
 
 namespace trunnion::calibration {
 namespace {
@@ -14,7 +14,7 @@ constexpr double seconds_per_minute = 60;
 class VirtualProbe {
  public:
   VirtualProbe(const truth::PoseReport& machine, const MeasurementInputs& in, const ChainParameters& design,
-               const truth::TouchProbeTruth& probe, const std::vector<truth::Solid>& solids)
+               const touch_probe::TouchProbeTruth& probe, const std::vector<touch_probe::Solid>& solids)
       : machine_(machine), in_(in), length_(probe.length), orientation_(design), probe_(probe, solids) {}
 
   // Position of X, Y, Z at the edge, on the way to the sphere against `direction`.
@@ -37,7 +37,7 @@ class VirtualProbe {
   }
 
  private:
-  truth::ProbePose pose(const Angles& angles, const Vec3& linear) const {
+  touch_probe::ProbePose pose(const Angles& angles, const Vec3& linear) const {
     truth::MachinePose machine;
     for (std::size_t i = 0; i < 3; ++i) machine.positions[i] = linear[static_cast<Eigen::Index>(i)];
     std::copy(angles.begin(), angles.end(), machine.positions.begin() + 3);
@@ -56,16 +56,16 @@ class VirtualProbe {
   const truth::PoseReport& machine_;
   const MeasurementInputs& in_;
   double length_ = 0;
-  truth::ProbeOrientation orientation_;
-  truth::TouchProbe probe_;
+  touch_probe::ProbeOrientation orientation_;
+  touch_probe::TouchProbe probe_;
 };
 
 }  // namespace
 
 std::vector<TouchedPose> touch_virtually(const truth::PoseReport& machine, const MeasurementInputs& inputs,
                                          const MeasuredMachine& measured, const MeasurementPlan& plan,
-                                         const truth::TouchProbeTruth& probe,
-                                         const std::vector<truth::Solid>& solids) {
+                                         const touch_probe::TouchProbeTruth& probe,
+                                         const std::vector<touch_probe::Solid>& solids) {
   VirtualProbe virtual_probe(machine, inputs, measured.outline.design, probe, solids);
   std::size_t earlier = 0;
   std::string current;

@@ -17,7 +17,7 @@
 #include "machine/axes.hpp"
 #include "machine/stream_settings.hpp"
 #include "motion/limits.hpp"
-#include "tool_tables/machine_tables.hpp"
+#include "parameter_store/machine_tables.hpp"
 
 namespace trunnion::channel_setup {
 

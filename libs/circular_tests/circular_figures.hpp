@@ -5,14 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "geometry/radial_reading.hpp"
+
 namespace trunnion::circular_tests {
 
-/// One point of an actual path, in polar coordinates about the programmed centre. Angles are counted from the
-/// first axis of the plane to the second.
-struct RadialReading {
-  double angle = 0;      ///< deg
-  double deviation = 0;  ///< mm: distance from the programmed centre less the programmed radius
-};
+using geometry::RadialReading;
 using Readings = std::span<const RadialReading>;
 
 /// A circle in the place of the programmed one, and how far the points are from it.

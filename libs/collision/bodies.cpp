@@ -53,7 +53,7 @@ Body tool_body(const MachineLinks& links, double length, double radius) {
   return body;
 }
 
-void add_probe(const MachineLinks& links, const truth::TouchProbeTruth& probe, BodySet& set) {
+void add_probe(const MachineLinks& links, const touch_probe::TouchProbeTruth& probe, BodySet& set) {
   const Vec3 down = -links.tool_direction();
   const double stylus = longest_stylus * probe.length;
   Body ball{"probe ball", links.spindle(), Sphere{probe.ball_radius}, links.face() + probe.length * down};
@@ -66,26 +66,26 @@ void add_probe(const MachineLinks& links, const truth::TouchProbeTruth& probe, B
   }
 }
 
-void add_solids(const MachineLinks& links, const std::vector<truth::Solid>& solids, BodySet& set) {
+void add_solids(const MachineLinks& links, const std::vector<touch_probe::Solid>& solids, BodySet& set) {
   std::size_t number = 0;
   const auto name = [&](const char* kind) {
     return std::string(kind) + (solids.size() > 1 ? " " + std::to_string(number) : "");
   };
   for (const auto& solid : solids) {
     ++number;
-    if (const auto* sphere = std::get_if<truth::SphereGauge>(&solid)) {
+    if (const auto* sphere = std::get_if<touch_probe::SphereGauge>(&solid)) {
       set.bodies.push_back({name("sphere"), links.workpiece(), Sphere{sphere->radius}, sphere->centre});
       if (sphere->shaft_radius > 0)
         set.bodies.push_back(cylinder(name("shaft of the sphere"), links.workpiece(), sphere->centre,
                                       sphere->shaft, sphere->shaft_length, sphere->shaft_radius));
-    } else if (const auto* box = std::get_if<truth::CuboidGauge>(&solid)) {
+    } else if (const auto* box = std::get_if<touch_probe::CuboidGauge>(&solid)) {
       set.bodies.push_back({name("box"), links.workpiece(), Box{box->half_lengths}, box->centre, box->edges});
-    } else if (const auto* ring = std::get_if<truth::RingGauge>(&solid)) {
+    } else if (const auto* ring = std::get_if<touch_probe::RingGauge>(&solid)) {
       // Without its bore: a probe in it is no case of the moves between measurements.
       set.bodies.push_back(cylinder(name("ring"), links.workpiece(),
                                     ring->centre - ring->half_height * ring->axis, ring->axis,
                                     2 * ring->half_height, ring->outside));
-    } else if (const auto* gauge = std::get_if<truth::CylinderGauge>(&solid)) {
+    } else if (const auto* gauge = std::get_if<touch_probe::CylinderGauge>(&solid)) {
       set.bodies.push_back(cylinder(name("cylinder"), links.workpiece(),
                                     gauge->centre - gauge->half_height * gauge->axis, gauge->axis,
                                     2 * gauge->half_height, gauge->radius));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "collision/machine_links.hpp"
-#include "truth/touch_probe.hpp"
+#include "touch_probe/touch_probe.hpp"
 
 namespace trunnion::collision {
 
@@ -56,8 +56,8 @@ Body tool_body(const MachineLinks& links, double length, double radius);
 inline constexpr const char* stylus_name = "probe stylus";
 /// Ball, stylus and body of a touch probe, and the solids that it measures, with their shafts. Stylus: 0.6 of
 /// the ball's diameter, at most 40 % of the length; the body's diameter is 40 mm.
-void add_probe(const MachineLinks& links, const truth::TouchProbeTruth& probe, BodySet& bodies);
-void add_solids(const MachineLinks& links, const std::vector<truth::Solid>& solids, BodySet& bodies);
+void add_probe(const MachineLinks& links, const touch_probe::TouchProbeTruth& probe, BodySet& bodies);
+void add_solids(const MachineLinks& links, const std::vector<touch_probe::Solid>& solids, BodySet& bodies);
 
 /// A rotation that turns Z to `direction` (unit vector).
 Mat3 rotation_to(const Vec3& direction);

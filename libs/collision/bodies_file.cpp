@@ -6,15 +6,15 @@
 #include <stdexcept>
 
 #include "canonical/axes.hpp"
+#include "compensation/structure.hpp"
 #include "geometry/angle.hpp"
 #include "machine/yaml.hpp"
-#include "truth/truth_reader.hpp"
-#include "volumetric/structure.hpp"
+#include "machine/yaml_reader.hpp"
 
 namespace trunnion::collision {
 namespace {
 
-using truth::Limits;
+using machine::Limits;
 
 constexpr Limits place{-1e5, 1e5}, angle{-360, 360}, size{0.01, 1e5};
 constexpr std::size_t most_bodies = 100, most_points = 64, longest_name = 40;
@@ -202,7 +202,7 @@ class BodiesParser {
     }
   }
 
-  truth::TruthReader reader_;
+  machine::YamlReader reader_;
   const geometry::ChainParameters& design_;
   std::vector<volumetric::StructureAxis> structure_;
   const MachineLinks* links_ = nullptr;

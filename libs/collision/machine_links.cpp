@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "canonical/axes.hpp"
+#include "compensation/error_model.hpp"
 #include "geometry/angle.hpp"
-#include "volumetric/error_model.hpp"
 
 namespace trunnion::collision {
 namespace {

@@ -9,7 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "truth/machine_outline.hpp"
+#include "compensation/error_model.hpp"
+#include "machine/machine_outline.hpp"
 
 namespace trunnion::collision {
 
@@ -20,7 +21,7 @@ using geometry::Vec3;
 using AxisPosition = std::array<double, 9>;
 
 /// Travel of the axes X Y Z A .. W; an axis that is not present does not move.
-using Travel = std::array<truth::AxisOutline, 9>;
+using Travel = std::array<machine::AxisOutline, 9>;
 
 /// "X10.000 Y-20.000 Z0.000 A30.000": the axes that are present.
 std::string text_of(const AxisPosition& position, const Travel& travel);

@@ -17,7 +17,7 @@
 #include <cmath>
 
 #include "canonical/axes.hpp"
-#include "truth/random_source.hpp"
+#include "geometry/random_source.hpp"
 
 namespace trunnion::collision {
 namespace {
@@ -42,7 +42,7 @@ class Draw {
   double uniform(double low, double high) { return low + (high - low) * random_.uniform(); }
 
  private:
-  truth::RandomSource random_;
+  geometry::RandomSource random_;
 };
 
 class Sampler : public ob::StateSampler {

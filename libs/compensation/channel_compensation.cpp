@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "compensation/model_parameters.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
-#include "volumetric/model_parameters.hpp"
 
 namespace trunnion::compensation {
 namespace {

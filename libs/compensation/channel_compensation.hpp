@@ -11,8 +11,8 @@
 #include "compensation/squareness.hpp"
 #include "compensation/straightness.hpp"
 #include "compensation/thermal.hpp"
+#include "compensation/volumetric_compensation.hpp"
 #include "machine/gantry_pairs.hpp"
-#include "volumetric/volumetric_compensation.hpp"
 
 namespace trunnion::compensation {
 

@@ -67,8 +67,9 @@ double variance_of(const Eigen::VectorXd& residual, Eigen::Index unknowns) {
 
 }  // namespace
 
-AxisLocation locate_axis(const truth::MachineOutline& machine, const geometry::Chain& model, std::size_t axis,
-                         const Vec3& ball, double tool_length, std::span<const BallDeviation> readings) {
+AxisLocation locate_axis(const machine::MachineOutline& machine, const geometry::Chain& model,
+                         std::size_t axis, const Vec3& ball, double tool_length,
+                         std::span<const BallDeviation> readings) {
   if (readings.size() < 4) throw std::runtime_error("the place of an axis needs at least four readings");
   const auto rows = static_cast<Eigen::Index>(3 * readings.size());
   std::vector<Unknown> unknowns;

@@ -27,8 +27,8 @@ struct AxisLocation {
 /// Least squares with the derivatives of the error model for one micrometre and one microradian. `axis`: 3 ..
 /// 8 (A .. W); `ball` in the workpiece frame. The zero position of the axis is not an unknown: with one ball
 /// it cannot be told from a displacement. Throws std::runtime_error with fewer than four deviations.
-AxisLocation locate_axis(const truth::MachineOutline& machine, const geometry::Chain& model, std::size_t axis,
-                         const truth::Vec3& ball, double tool_length,
+AxisLocation locate_axis(const machine::MachineOutline& machine, const geometry::Chain& model,
+                         std::size_t axis, const truth::Vec3& ball, double tool_length,
                          std::span<const BallDeviation> readings);
 
 }  // namespace trunnion::identification

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "canonical/axes.hpp"
+#include "compensation/structure.hpp"
 #include "geometry/angle.hpp"
 #include "geometry/decompositions.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::identification {
 namespace {
@@ -21,7 +21,7 @@ std::size_t along(std::size_t axis) { return axis < 3 ? axis : 3 + axis % 3; }
 
 }  // namespace
 
-GeometryFit::GeometryFit(const truth::MachineOutline& machine, const geometry::Chain& model,
+GeometryFit::GeometryFit(const machine::MachineOutline& machine, const geometry::Chain& model,
                          const MeasurementPlan& plan, const Magnitudes& magnitudes)
     : machine_(machine), model_(model), plan_(plan) {
   find_unknowns(magnitudes);

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <map>
 
+#include "compensation/model_parameters.hpp"
 #include "identification/measurement_plan.hpp"
-#include "volumetric/model_parameters.hpp"
 
 namespace trunnion::identification {
 
@@ -47,8 +47,8 @@ class GeometryFit {
   static constexpr std::size_t uncertainty_poses = 100;
 
   /// Throws std::runtime_error when the plan's structure is not the machine's.
-  GeometryFit(const truth::MachineOutline& machine, const geometry::Chain& model, const MeasurementPlan& plan,
-              const Magnitudes& magnitudes = {});
+  GeometryFit(const machine::MachineOutline& machine, const geometry::Chain& model,
+              const MeasurementPlan& plan, const Magnitudes& magnitudes = {});
 
   /// `measured`: the readings of each measurement of the plan, as readings() has them.
   FitResult solve(const std::vector<std::vector<double>>& measured) const;
@@ -73,7 +73,7 @@ class GeometryFit {
   double alignment(const Measurement& m, std::size_t reading, std::size_t which) const;
   void find_uncertainty();
 
-  truth::MachineOutline machine_;
+  machine::MachineOutline machine_;
   geometry::Chain model_;
   MeasurementPlan plan_;
   std::map<std::size_t, volumetric::AxisTables> grid_;  // positions of the tables, without values

@@ -16,7 +16,7 @@ std::optional<char> axis_of_test(const geometry::Chain& model, KTest test) {
   return std::nullopt;
 }
 
-char annex_of(const truth::MachineOutline& machine) {
+char annex_of(const machine::MachineOutline& machine) {
   const bool head = machine.design.head_1 || machine.design.head_2;
   const bool table = machine.design.table_1 || machine.design.table_2;
   return head && table ? 'C' : head ? 'A' : 'B';

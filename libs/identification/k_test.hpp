@@ -19,7 +19,7 @@ enum class KTest {
 std::optional<char> axis_of_test(const geometry::Chain& model, KTest test);
 
 /// A: two rotary axes in the head, B: two in the table, C: one in each.
-char annex_of(const truth::MachineOutline& machine);
+char annex_of(const machine::MachineOutline& machine);
 
 /// What the sensors have read in one sense of the axis.
 struct SenseFigures {

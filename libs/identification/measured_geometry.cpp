@@ -40,7 +40,7 @@ std::map<std::uint32_t, machine::ParameterValue> compensation_values(const FitRe
 }  // namespace
 
 MeasuredGeometry measure_geometry(truth::PoseReport report, const truth::Truth& truth,
-                                  const truth::MachineOutline& machine, const machine::Parameters& model,
+                                  const machine::MachineOutline& machine, const machine::Parameters& model,
                                   const MeasurementPlan& plan, const GeometrySettings& settings) {
   report.compensation = nullptr;
   MeasuredGeometry result;

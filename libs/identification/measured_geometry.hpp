@@ -38,7 +38,7 @@ struct GeometrySettings {
 /// `report`: the machine; a compensation that it has is left out. `model`: the parameters of the control.
 /// Throws std::runtime_error.
 MeasuredGeometry measure_geometry(truth::PoseReport report, const truth::Truth& truth,
-                                  const truth::MachineOutline& machine, const machine::Parameters& model,
+                                  const machine::MachineOutline& machine, const machine::Parameters& model,
                                   const MeasurementPlan& plan, const GeometrySettings& settings);
 
 }  // namespace trunnion::identification

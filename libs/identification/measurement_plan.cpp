@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "canonical/axes.hpp"
+#include "compensation/structure.hpp"
 #include "machine/yaml.hpp"
+#include "machine/yaml_reader.hpp"
 #include "text/quantity.hpp"
-#include "truth/truth_reader.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::identification {
 namespace {
 
-using truth::Limits;
+using machine::Limits;
 
 using canonical::axis_letters;
 constexpr double micro = 1e-3;  // um in mm
@@ -21,7 +21,7 @@ constexpr Limits place{-1e5, 1e5}, tool{0, 1e4};
 
 class PlanReader {
  public:
-  PlanReader(const std::string& file, const truth::MachineOutline& machine)
+  PlanReader(const std::string& file, const machine::MachineOutline& machine)
       : reader_(file), machine_(machine) {}
 
   MeasurementPlan read(const YAML::Node& root) {
@@ -175,8 +175,8 @@ class PlanReader {
                               text::quantity(m.from + 360));
   }
 
-  truth::TruthReader reader_;
-  const truth::MachineOutline& machine_;
+  machine::YamlReader reader_;
+  const machine::MachineOutline& machine_;
 };
 
 }  // namespace
@@ -195,7 +195,7 @@ bool laser_shows(const LinearAxisError& error, const truth::Vec3& tool_direction
 }
 
 MeasurementPlan parse_plan(const std::string& text, const std::string& file,
-                           const truth::MachineOutline& machine) {
+                           const machine::MachineOutline& machine) {
   return PlanReader(file, machine).read(machine::parse_yaml(text, file));
 }
 

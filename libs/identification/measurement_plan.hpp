@@ -53,7 +53,7 @@ struct MeasurementPlan {
 
 /// Throws std::runtime_error that begins with file:line:column.
 MeasurementPlan parse_plan(const std::string& text, const std::string& file,
-                           const truth::MachineOutline& machine);
+                           const machine::MachineOutline& machine);
 
 /// What the instrument shows on the machine of `report`: of a laser the mean deviations of the runs at each
 /// target, up, then down; of a ballbar both circles; of a nest x y z of each angle, there and back. mm or

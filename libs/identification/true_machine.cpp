@@ -8,12 +8,12 @@
 #include <string_view>
 #include <utility>
 
+#include "compensation/model_parameters.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/machine.hpp"
 #include "machine/parameter_setting.hpp"
 #include "machine/yaml.hpp"
 #include "text/quantity.hpp"
-#include "volumetric/model_parameters.hpp"
 
 namespace trunnion::identification {
 namespace {
@@ -33,7 +33,7 @@ double number_of(const std::string& setting, const std::string& text, double mos
 
 // A location error or a temperature; false when it is another setting.
 bool apply_truth_setting(truth::GeometryTruth& truth, truth::Temperatures& temperatures,
-                         const truth::MachineOutline& outline, const std::string& setting) {
+                         const machine::MachineOutline& outline, const std::string& setting) {
   const auto equals = std::min(setting.find('='), setting.size());
   const auto name = setting.substr(0, equals), value = setting.substr(std::min(equals + 1, setting.size()));
   if (const auto error = truth::location_error(truth, outline, name)) {
@@ -59,7 +59,7 @@ TrueMachine load_true_machine(const std::string& directory, std::uint16_t channe
   delivered.values = machine::machine_parameters(config);
   TrueMachine machine;
   machine.name = config.name;
-  machine.outline = truth::outline_of(delivered, channel);
+  machine.outline = machine::outline_of(delivered, channel);
   const auto file = directory + "/truth.yaml";
   if (std::filesystem::exists(file))
     machine.truth = truth::parse_truth(machine::read_text(file), file, machine.outline);

@@ -14,7 +14,7 @@ namespace trunnion::identification {
 
 struct TrueMachine {
   std::string name;
-  truth::MachineOutline outline;
+  machine::MachineOutline outline;
   truth::Truth truth;
   machine::Parameters model;  ///< of the control: as delivered, with the settings
   std::unique_ptr<truth::PoseReport> report;

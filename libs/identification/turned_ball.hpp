@@ -7,16 +7,16 @@
 #include <optional>
 #include <vector>
 
+#include "machine/machine_outline.hpp"
 #include "servo_analysis/channel_motion.hpp"
 #include "servo_analysis/servo_response.hpp"
 #include "truth/instrument.hpp"
-#include "truth/machine_outline.hpp"
 
 namespace trunnion::identification {
 
 /// The machine of a test, and where its ball is by the control's model.
 struct TurnedBall {
-  truth::MachineOutline machine;
+  machine::MachineOutline machine;
   geometry::Chain model;
   std::size_t axis = 5;                    ///< that turns, 3 .. 8: A .. W
   geometry::Angles held{};                 ///< deg: of the other rotary axes

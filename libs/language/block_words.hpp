@@ -76,7 +76,6 @@ class BlockWords {
   bool single_code() const;
 
   void use(char letter) { used_ |= Block::bit(letter); }
-  void use_all(std::uint32_t letters) { used_ |= letters; }
   void use_axes() { used_ |= block_->letters & axis_bits; }
   bool used(char letter) const { return (used_ & Block::bit(letter)) != 0; }
   /// An alarm at the first word that had no meaning.

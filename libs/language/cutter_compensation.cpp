@@ -89,13 +89,6 @@ bool CutterCompensation::push() {
 
 Command* CutterCompensation::add_at_rest() { return push() ? &item(count_ - 1).command : nullptr; }
 
-std::size_t CutterCompensation::move_before(std::size_t i) const {
-  while (i-- > 0) {
-    if (item(i).moves_in_plane) return i;
-  }
-  return count_;
-}
-
 std::size_t CutterCompensation::move_after(std::size_t i) const {
   for (++i; i < count_; ++i) {
     if (item(i).moves_in_plane) return i;

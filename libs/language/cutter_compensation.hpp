@@ -91,8 +91,7 @@ class CutterCompensation {
   Item& item(std::size_t i) { return items_[(first_ + i) % capacity]; }
   const Item& item(std::size_t i) const { return items_[(first_ + i) % capacity]; }
   bool push();
-  /// Index of the nearest move in the plane before or behind; count_ when there is none.
-  std::size_t move_before(std::size_t i) const;
+  /// Index of the nearest move in the plane behind; count_ when there is none.
   std::size_t move_after(std::size_t i) const;
   AlarmNumber settle_corner(Item& before, Item& after);
   AlarmNumber check_direction(const Item& item) const;

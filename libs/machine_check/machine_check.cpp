@@ -18,10 +18,10 @@
 #include "machine/machine.hpp"
 #include "machine/service_constants.hpp"
 #include "machine/yaml.hpp"
+#include "parameter_store/tool_tables.hpp"
 #include "plc/devices/hal_pins.hpp"
 #include "plc/translation.hpp"
 #include "storage/kept_file.hpp"
-#include "tool_tables/tables.hpp"
 #include "truth/truth_file.hpp"
 
 namespace trunnion::machine_check {
@@ -280,7 +280,7 @@ class Check {
   // As the simulation of the drive reads it.
   void truth() {
     attempt_if_there("truth.yaml", [&](const std::string& file) {
-      const auto outline = truth::outline_of(parameters_, 0);
+      const auto outline = machine::outline_of(parameters_, 0);
       const auto read = truth::parse_truth(machine::read_text(file), file, outline);
       truth::make_geometry(read.geometry, outline, file);
     });

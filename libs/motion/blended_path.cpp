@@ -30,7 +30,6 @@ double weigh(const AxisValues& change, const BlendRules& rules) {
 
 void BlendedPath::clear() {
   pushed_ = rated_ = reached_ = settled_blocks_ = 0;
-  settled_ = 0;
   last_widest_ = 1;
 }
 
@@ -190,7 +189,6 @@ void BlendedPath::update(bool ends, double smooth_ahead) {
     return index + 1 < reached_ && is_known(index + 1, reached_, smooth_end);
   };
   while (settled_blocks_ < reached_ && is_settled(settled_blocks_)) ++settled_blocks_;
-  if (settled_blocks_ > 0) settled_ = (*this)[settled_blocks_ - 1].end();
 }
 
 template <typename Visit>

@@ -82,9 +82,7 @@ class BlendedPath {
   PathBlock& operator[](std::uint64_t index) { return blocks_[index % capacity]; }
   double end() const { return pushed_ == 0 ? 0 : (*this)[pushed_ - 1].end(); }
 
-  /// The curve up to here, a path coordinate, will not change any more.
-  double settled() const { return settled_; }
-  /// Whole blocks up to this number are settled.
+  /// Blocks up to this number will not change any more.
   std::uint64_t settled_blocks() const { return settled_blocks_; }
 
   /// Position at the path coordinate s on block `index` (which contains it).
@@ -115,7 +113,6 @@ class BlendedPath {
   std::uint64_t pushed_ = 0;
   std::uint64_t rated_ = 0;    // joins before this one have `widest`
   std::uint64_t reached_ = 0;  // joins before this one have `reach`
-  double settled_ = 0;
   std::uint64_t settled_blocks_ = 0;
   double last_widest_ = 1;
 };

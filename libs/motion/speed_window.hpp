@@ -48,7 +48,6 @@ class SpeedWindow {
   bool build(const CellRing& cells, const SpeedRequest& request, const SpeedPlan* before);
 
   std::size_t pieces() const { return nodes_.size() - 1; }
-  std::size_t coefficients() const { return nodes_.size() + 1; }
   /// Node k, extended evenly beyond both ends.
   double node(std::ptrdiff_t k) const;
   /// Basis of b on piece k at s, its first and second derivative.

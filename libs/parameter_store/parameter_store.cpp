@@ -54,14 +54,6 @@ std::string line(const std::string& time, const std::string& who, std::size_t pa
 
 }  // namespace
 
-std::vector<std::string> read_journal(const std::string& text) {
-  std::vector<std::string> lines;
-  std::size_t at = 0;
-  for (auto end = text.find('\n'); end != std::string::npos; at = end + 1, end = text.find('\n', at))
-    if (nlohmann::json::accept(text.substr(at, end - at))) lines.push_back(text.substr(at, end - at));
-  return lines;
-}
-
 ParameterStore::ParameterStore(Storage& storage, MachineDefaults defaults, const std::string& boot)
     : storage_(storage), defaults_(std::move(defaults)) {
   state_.tools = defaults_.tools;

@@ -7,9 +7,9 @@
 #include "contracts/types.hpp"
 #include "machine/axis_faults.hpp"
 #include "parameter_store/active_set.hpp"
+#include "parameter_store/machine_tables.hpp"
 #include "parameter_store/storage.hpp"
-#include "tool_tables/machine_tables.hpp"
-#include "tool_tables/tables.hpp"
+#include "parameter_store/tool_tables.hpp"
 
 namespace trunnion::parameters {
 
@@ -78,9 +78,6 @@ class ParameterStore {
   Changes changes_{true, true, true};
   std::string problem_;
 };
-
-/// The lines of a journal that are whole: a crash may leave a torn last one.
-std::vector<std::string> read_journal(const std::string& text);
 
 inline constexpr const char* parameters_file = "parameters.yaml";
 inline constexpr const char* active_file = "active.yaml";

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "language/canonical.hpp"
+#include "parameter_store/machine_tables.hpp"
 #include "report/polyline.hpp"
-#include "tool_tables/machine_tables.hpp"
 
 namespace trunnion::report {
 

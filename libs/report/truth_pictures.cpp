@@ -29,7 +29,7 @@ struct GridPoint {
   double x, y, error_x, error_y;
 };
 
-GridPoint point(const truth::PoseReport& report, const truth::MachineOutline& machine,
+GridPoint point(const truth::PoseReport& report, const machine::MachineOutline& machine,
                 const PicturePlane& plane, double u, double v) {
   truth::MachinePose pose;
   for (std::size_t i = 0; i < 3; ++i) pose.positions[i] = (machine.axes[i].low + machine.axes[i].high) / 2;
@@ -47,7 +47,7 @@ GridPoint point(const truth::PoseReport& report, const truth::MachineOutline& ma
 
 }  // namespace
 
-std::string truth_picture(const truth::PoseReport& report, const truth::MachineOutline& machine,
+std::string truth_picture(const truth::PoseReport& report, const machine::MachineOutline& machine,
                           const std::string& title) {
   constexpr PicturePlane planes[] = {{0, 1, "X mm", "Y mm"}, {0, 2, "X mm", "Z mm"}, {1, 2, "Y mm", "Z mm"}};
   const auto every_line = [&](const PicturePlane& plane, auto&& visit) {
@@ -114,7 +114,7 @@ std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std
     plot.curve(points, style);
   };
   for (int k = -3; k <= 3; ++k) circle(1 + 1e-3 * division * k * magnification, ideal_style);
-  const auto trace = [&](const std::vector<circular_tests::RadialReading>& readings, const char* style) {
+  const auto trace = [&](const std::vector<geometry::RadialReading>& readings, const char* style) {
     std::vector<PlotPoint> points;
     for (std::size_t i = 0; i < readings.size(); i += readings.size() / most_circle_points + 1) {
       const auto& reading = readings[i];

@@ -10,7 +10,7 @@ namespace trunnion::report {
 
 /// Three planes through the middle of the travel (XY, XZ, YZ), rotary axes at zero: the grid of the travel,
 /// and the same grid with the deviation of the tip magnified. SVG.
-std::string truth_picture(const truth::PoseReport& report, const truth::MachineOutline& machine,
+std::string truth_picture(const truth::PoseReport& report, const machine::MachineOutline& machine,
                           const std::string& title);
 
 /// Both circles of a ballbar in polar coordinates about the nominal circle, the deviations magnified. SVG.

@@ -17,7 +17,7 @@ constexpr double highest_frequency = 500;  // Hz: beyond it the steps of the sim
 
 class DriveParser {
  public:
-  DriveParser(const TruthReader& reader, bool turns)
+  DriveParser(const machine::YamlReader& reader, bool turns)
       : reader_(reader), turns_(turns), place_(turns ? "_deg" : "_mm"), fine_(turns ? "_urad" : "_um") {
     small_ = turns ? 1e-6 * 180 / std::numbers::pi : 1e-3;
   }
@@ -35,7 +35,7 @@ class DriveParser {
   }
 
  private:
-  using Targets = std::initializer_list<std::tuple<std::string, double*, Limits, double>>;
+  using Targets = std::initializer_list<std::tuple<std::string, double*, machine::Limits, double>>;
   bool number(const Targets& targets, const std::string& key, const YAML::Node& node) const {
     for (const auto& [name, target, limits, unit] : targets)
       if (name == key) return *target = unit * reader_.number(node, limits), true;
@@ -49,7 +49,7 @@ class DriveParser {
   MechanicsTruth mechanics(const YAML::Node& node) const {
     MechanicsTruth m;
     const std::string per_speed = turns_ ? "_deg_per_s" : "_mm_per_s";
-    const Limits share{0, 10};
+    const machine::Limits share{0, 10};
     const Targets targets{{"load_share", &m.load_share, {0.02, 0.98}, 1},
                           {"locked_frequency_Hz", &m.locked_frequency, {1, highest_frequency}, 1},
                           {"damping_ratio", &m.damping_ratio, {0, 1}, 1},
@@ -152,13 +152,13 @@ class DriveParser {
     return f;
   }
 
-  const TruthReader& reader_;
+  const machine::YamlReader& reader_;
   bool turns_;
   std::string place_, fine_;
   double small_ = 1e-3;
 };
 
-SpindleTruth read_spindle_drive(const TruthReader& reader, const YAML::Node& node) {
+SpindleTruth read_spindle_drive(const machine::YamlReader& reader, const YAML::Node& node) {
   SpindleTruth spindle;
   reader.each(node, "inertia_kg_m2, torque_Nm", [&](const std::string& key, const YAML::Node& v) {
     if (key == "inertia_kg_m2") return spindle.inertia = reader.number(v, {1e-6, 1e4}), true;
@@ -183,8 +183,8 @@ SpindleTruth read_spindle_drive(const TruthReader& reader, const YAML::Node& nod
 
 // An entry for each of `names`.
 template <class Read>
-auto read_named(const TruthReader& reader, const YAML::Node& section, const std::vector<std::string>& names,
-                Read&& read) {
+auto read_named(const machine::YamlReader& reader, const YAML::Node& section,
+                const std::vector<std::string>& names, Read&& read) {
   std::string known;
   for (const auto& name : names) known.append(known.empty() ? "" : ", ").append(name);
   std::map<std::string, decltype(read(std::string(), section))> all;
@@ -208,7 +208,7 @@ double SpindleTruth::torque_at(double speed) const {
   return torque.back().torque;
 }
 
-std::map<std::string, DriveTruth> read_drives(const TruthReader& reader, const YAML::Node& section,
+std::map<std::string, DriveTruth> read_drives(const machine::YamlReader& reader, const YAML::Node& section,
                                               const std::vector<std::string>& axes,
                                               const std::vector<std::string>& turning) {
   return read_named(reader, section, axes, [&](const std::string& name, const YAML::Node& node) {
@@ -216,7 +216,8 @@ std::map<std::string, DriveTruth> read_drives(const TruthReader& reader, const Y
   });
 }
 
-std::map<std::string, SpindleTruth> read_spindle_drives(const TruthReader& reader, const YAML::Node& section,
+std::map<std::string, SpindleTruth> read_spindle_drives(const machine::YamlReader& reader,
+                                                        const YAML::Node& section,
                                                         const std::vector<std::string>& names) {
   return read_named(reader, section, names, [&](const std::string&, const YAML::Node& node) {
     return read_spindle_drive(reader, node);

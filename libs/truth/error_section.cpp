@@ -5,12 +5,12 @@ namespace trunnion::truth {
 namespace {
 
 constexpr std::size_t most_terms = 32, most_coefficients = 8, most_points = 1000;
-constexpr Limits values{-1e5, 1e5}, positions{-1e5, 1e5}, widths{1e-3, 1e5};
+constexpr machine::Limits values{-1e5, 1e5}, positions{-1e5, 1e5}, widths{1e-3, 1e5};
 
 // One term. Keys carry the units of the value and of the position.
 class Term {
  public:
-  Term(const TruthReader& reader, const YAML::Node& node, bool angle, bool rotary)
+  Term(const machine::YamlReader& reader, const YAML::Node& node, bool angle, bool rotary)
       : reader_(reader),
         node_(node),
         value_(angle ? "_urad" : "_um"),
@@ -47,7 +47,7 @@ class Term {
       return (", " + keys + ",").find(", " + key + ",") != std::string::npos;
     });
   }
-  double optional(const std::string& key, double otherwise, Limits limits) const {
+  double optional(const std::string& key, double otherwise, machine::Limits limits) const {
     return node_[key] ? reader_.number(node_[key], limits) : otherwise;
   }
   YAML::Node required(const std::string& key) const {
@@ -94,7 +94,7 @@ class Term {
     return t;
   }
 
-  const TruthReader& reader_;
+  const machine::YamlReader& reader_;
   const YAML::Node& node_;
   std::string value_, place_;
   double unit_;
@@ -103,7 +103,7 @@ class Term {
 }  // namespace
 
 std::vector<ComponentError> read_errors(
-    const TruthReader& reader, const YAML::Node& list, std::size_t axis, std::size_t component,
+    const machine::YamlReader& reader, const YAML::Node& list, std::size_t axis, std::size_t component,
     const std::function<std::size_t(const YAML::Node&, const std::string&)>& axis_of,
     const std::function<bool(std::size_t)>& rotary) {
   if (!list.IsSequence() || list.size() == 0 || list.size() > most_terms)

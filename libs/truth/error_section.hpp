@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "machine/yaml_reader.hpp"
 #include "truth/true_geometry.hpp"
-#include "truth/truth_reader.hpp"
 
 namespace trunnion::truth {
 
@@ -17,7 +17,7 @@ namespace trunnion::truth {
 /// ComponentError for each axis whose position decides. `axis_of` finds the axis of a name or throws;
 /// `rotary` says whether an axis turns. Throws std::runtime_error that begins with file:line:column.
 std::vector<ComponentError> read_errors(
-    const TruthReader& reader, const YAML::Node& list, std::size_t axis, std::size_t component,
+    const machine::YamlReader& reader, const YAML::Node& list, std::size_t axis, std::size_t component,
     const std::function<std::size_t(const YAML::Node&, const std::string&)>& axis_of,
     const std::function<bool(std::size_t)>& rotary);
 

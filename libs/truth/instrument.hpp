@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "truth/random_source.hpp"
+#include "geometry/random_source.hpp"
 #include "truth/true_geometry.hpp"
 
 namespace trunnion::truth {
@@ -37,7 +37,7 @@ class Instrument {
 
  private:
   InstrumentTruth truth_;
-  RandomSource random_;
+  geometry::RandomSource random_;
 };
 
 /// A laser interferometer whose beam is a straight line in the frame of the workpiece: it was set to zero at

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "circular_tests/circular_figures.hpp"
+#include "geometry/radial_reading.hpp"
 #include "truth/ballbar.hpp"
 #include "truth/instrument.hpp"
 #include "truth/pose_report.hpp"
@@ -15,7 +15,7 @@
 namespace trunnion::truth {
 
 struct BallbarMeasurement {
-  std::vector<circular_tests::RadialReading> ccw, cw;
+  std::vector<geometry::RadialReading> ccw, cw;
 };
 
 /// Both circles with the rotary axes at zero, each after a quarter turn of overrun.

@@ -10,7 +10,7 @@
 
 #include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
-#include "truth/random_source.hpp"
+#include "geometry/random_source.hpp"
 
 namespace trunnion::truth {
 namespace {
@@ -47,7 +47,7 @@ void append(std::string& text, const Vec3& v, double unit, int decimals) {
 
 }  // namespace
 
-PoseReport::PoseReport(TrueGeometry geometry, geometry::Chain model, const MachineOutline& machine)
+PoseReport::PoseReport(TrueGeometry geometry, geometry::Chain model, const machine::MachineOutline& machine)
     : geometry_(std::move(geometry)), model_(std::move(model)), machine_(machine) {}
 
 bool PoseReport::has(std::size_t axis) const { return axis < 3 || model_.turns(axis - 3); }
@@ -117,7 +117,7 @@ ToolPose PoseReport::true_pose(const MachinePose& machine) const {
 }
 
 std::vector<MachinePose> PoseReport::random_poses(std::size_t count, std::uint64_t seed) const {
-  RandomSource random(seed);
+  geometry::RandomSource random(seed);
   std::vector<MachinePose> poses;
   for (std::size_t n = 0; n < count; ++n) {
     MachinePose& pose = poses.emplace_back();

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "truth/machine_outline.hpp"
+#include "compensation/volumetric_compensation.hpp"
+#include "machine/machine_outline.hpp"
 #include "truth/true_geometry.hpp"
-#include "volumetric/volumetric_compensation.hpp"
 
 namespace trunnion::truth {
 
@@ -40,7 +40,7 @@ class PoseReport {
  public:
   /// `model` is the chain by which the control believes the tool to be somewhere: that of the parameters in
   /// force.
-  PoseReport(TrueGeometry geometry, geometry::Chain model, const MachineOutline& machine);
+  PoseReport(TrueGeometry geometry, geometry::Chain model, const machine::MachineOutline& machine);
 
   double tool_length = 0;  ///< mm
   Temperatures temperatures{};
@@ -69,7 +69,7 @@ class PoseReport {
 
   TrueGeometry geometry_;
   geometry::Chain model_;
-  MachineOutline machine_;
+  machine::MachineOutline machine_;
   std::array<int, axis_count> approach_{};
   std::optional<std::array<double, axis_count>> previous_;
 };

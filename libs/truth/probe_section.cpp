@@ -4,13 +4,14 @@
 #include <array>
 
 #include "geometry/angle.hpp"
+#include "truth/true_geometry.hpp"
 #include "truth/units.hpp"
 
 namespace trunnion::truth {
 namespace {
 
-constexpr Limits position{-1e5, 1e5}, angle{-360, 360};  // mm, deg
-constexpr Limits size{1e-3, 1e4};                        // mm: lengths and diameters
+constexpr machine::Limits position{-1e5, 1e5}, angle{-360, 360};  // mm, deg
+constexpr machine::Limits size{1e-3, 1e4};                        // mm: lengths and diameters
 constexpr std::size_t most_solids = 64;
 
 // A length that the entry of a solid must have.
@@ -21,9 +22,9 @@ struct Length {
 
 class SolidReader {
  public:
-  explicit SolidReader(const TruthReader& reader) : reader_(reader) {}
+  explicit SolidReader(const machine::YamlReader& reader) : reader_(reader) {}
 
-  Solid read(const YAML::Node& entry) {
+  touch_probe::Solid read(const YAML::Node& entry) {
     YAML::Node shape;
     std::string kind;
     centre_ = turn_ = Vec3::Zero();
@@ -61,8 +62,8 @@ class SolidReader {
       if (length.value == 0) reader_.fail(shape, std::string("'") + length.key + "' is missing");
   }
 
-  Solid sphere(const YAML::Node& shape) {
-    SphereGauge out;
+  touch_probe::Solid sphere(const YAML::Node& shape) {
+    touch_probe::SphereGauge out;
     double diameter = 0;
     out.centre = centre_;
     out.shaft = -edges_.col(2);
@@ -82,8 +83,8 @@ class SolidReader {
     return out;
   }
 
-  Solid box(const YAML::Node& shape) {
-    CuboidGauge out;
+  touch_probe::Solid box(const YAML::Node& shape) {
+    touch_probe::CuboidGauge out;
     bool given = false;
     reader_.each(shape, "size_mm", [&](const std::string& key, const YAML::Node& value) {
       return key == "size_mm" && (out.half_lengths = reader_.vector(value, size) / 2, given = true);
@@ -94,31 +95,31 @@ class SolidReader {
     return out;
   }
 
-  Solid ring(const YAML::Node& shape) {
+  touch_probe::Solid ring(const YAML::Node& shape) {
     std::array<Length, 3> l{{{"bore_mm"}, {"outside_mm"}, {"height_mm"}}};
     lengths(shape, l);
     if (l[1].value <= l[0].value)
       reader_.fail(shape["outside_mm"], "the outside diameter must exceed the bore");
-    return RingGauge{centre_, edges_.col(2), l[0].value / 2, l[1].value / 2, l[2].value / 2};
+    return touch_probe::RingGauge{centre_, edges_.col(2), l[0].value / 2, l[1].value / 2, l[2].value / 2};
   }
 
-  Solid cylinder(const YAML::Node& shape) {
+  touch_probe::Solid cylinder(const YAML::Node& shape) {
     std::array<Length, 2> l{{{"diameter_mm"}, {"height_mm"}}};
     lengths(shape, l);
-    return CylinderGauge{centre_, edges_.col(2), l[0].value / 2, l[1].value / 2};
+    return touch_probe::CylinderGauge{centre_, edges_.col(2), l[0].value / 2, l[1].value / 2};
   }
 
-  const TruthReader& reader_;
+  const machine::YamlReader& reader_;
   Vec3 centre_, turn_;
   Mat3 edges_;
 };
 
 }  // namespace
 
-TouchProbeTruth read_probe(const TruthReader& reader, const YAML::Node& section) {
-  TouchProbeTruth out;
-  const Limits small{0, 1e4}, seed{0, 4294967295.0}, touch{1, 1e9};  // um
-  const auto whole = [&](const YAML::Node& node, Limits limits) {
+touch_probe::TouchProbeTruth read_probe(const machine::YamlReader& reader, const YAML::Node& section) {
+  touch_probe::TouchProbeTruth out;
+  const machine::Limits small{0, 1e4}, seed{0, 4294967295.0}, touch{1, 1e9};  // um
+  const auto whole = [&](const YAML::Node& node, machine::Limits limits) {
     const double value = reader.number(node, limits);
     if (value != static_cast<double>(static_cast<std::uint32_t>(value)))
       reader.fail(node, "expected a whole number");
@@ -145,11 +146,11 @@ TouchProbeTruth read_probe(const TruthReader& reader, const YAML::Node& section)
   return out;
 }
 
-std::vector<Solid> read_solids(const TruthReader& reader, const YAML::Node& section) {
+std::vector<touch_probe::Solid> read_solids(const machine::YamlReader& reader, const YAML::Node& section) {
   if (!section.IsSequence()) reader.fail(section, "expected a list of solids");
   if (section.size() > most_solids)
     reader.fail(section, "at most " + std::to_string(most_solids) + " solids are possible");
-  std::vector<Solid> solids;
+  std::vector<touch_probe::Solid> solids;
   SolidReader one(reader);
   for (const auto& entry : section) solids.push_back(one.read(entry));
   return solids;

@@ -4,14 +4,14 @@
 
 #include <vector>
 
-#include "truth/touch_probe.hpp"
-#include "truth/truth_reader.hpp"
+#include "machine/yaml_reader.hpp"
+#include "touch_probe/touch_probe.hpp"
 
 namespace trunnion::truth {
 
 /// Throws std::runtime_error that begins with file:line:column, as read_solids().
-TouchProbeTruth read_probe(const TruthReader& reader, const YAML::Node& section);
+touch_probe::TouchProbeTruth read_probe(const machine::YamlReader& reader, const YAML::Node& section);
 /// Positions in the workpiece frame.
-std::vector<Solid> read_solids(const TruthReader& reader, const YAML::Node& section);
+std::vector<touch_probe::Solid> read_solids(const machine::YamlReader& reader, const YAML::Node& section);
 
 }  // namespace trunnion::truth

@@ -5,13 +5,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "truth/random_source.hpp"
+#include "geometry/random_source.hpp"
 
 namespace trunnion::truth {
+namespace {
 
+// `axis`: any number that tells the axes apart. Frequencies stay where the steps of the simulation permit
+// them. `turns`: backlash in deg.
 MechanicsTruth draw_mechanics(const Grade& grade, std::uint64_t seed, std::uint32_t axis, bool turns) {
   // Another stream than that of the geometry.
-  RandomSource random(seed * 0x2545f4914f6cdd1d + 0x1000 + axis);
+  geometry::RandomSource random(seed * 0x2545f4914f6cdd1d + 0x1000 + axis);
   const auto& g = grade.drive;
   const auto about = [&](double mean) { return mean * std::clamp(1 + 0.25 * random.normal(), 0.4, 1.6); };
   MechanicsTruth m;
@@ -31,8 +34,10 @@ MechanicsTruth draw_mechanics(const Grade& grade, std::uint64_t seed, std::uint3
   return m;
 }
 
+}  // namespace
+
 std::map<std::string, DriveTruth> draw_drives(const Grade& grade, std::uint64_t seed,
-                                              const MachineOutline& machine) {
+                                              const machine::MachineOutline& machine) {
   std::map<std::string, DriveTruth> drives;
   for (std::size_t i = 0; i < machine.drives.size(); ++i) {
     const auto& name = machine.drives[i];
@@ -43,8 +48,9 @@ std::map<std::string, DriveTruth> draw_drives(const Grade& grade, std::uint64_t 
   return drives;
 }
 
-BeamTruth draw_beam(const Grade& grade, std::uint64_t seed, const MachineOutline& machine, std::size_t axis) {
-  RandomSource random(seed * 0x2545f4914f6cdd1d + 0x2000);
+BeamTruth draw_beam(const Grade& grade, std::uint64_t seed, const machine::MachineOutline& machine,
+                    std::size_t axis) {
+  geometry::RandomSource random(seed * 0x2545f4914f6cdd1d + 0x2000);
   const auto about = [&](double mean) { return mean * std::clamp(1 + 0.25 * random.normal(), 0.4, 1.6); };
   const std::size_t across = axis == 0 ? 1 : 0;
   BeamTruth beam;

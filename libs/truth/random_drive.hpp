@@ -10,18 +10,15 @@
 
 namespace trunnion::truth {
 
-/// Draws the mechanics of axis `axis` (any number that tells the axes apart). Frequencies stay where the
-/// steps of the simulation permit them. `turns`: backlash in deg. The same bits for the same arguments on
-/// every host.
-MechanicsTruth draw_mechanics(const Grade& grade, std::uint64_t seed, std::uint32_t axis, bool turns);
-
-/// The mechanics of every servo axis of `machine`, by its name.
+/// The mechanics of every servo axis of `machine`, by its name. The same bits for the same arguments on every
+/// host.
 std::map<std::string, DriveTruth> draw_drives(const Grade& grade, std::uint64_t seed,
-                                              const MachineOutline& machine);
+                                              const machine::MachineOutline& machine);
 
 /// The beam of a gantry that moves along linear axis `axis` (0 .. 2): its misalignment, and the vibration of
 /// one side against the other. Its feet are at the ends of the travel of the axis across it (X, or Y of a
 /// gantry along X).
-BeamTruth draw_beam(const Grade& grade, std::uint64_t seed, const MachineOutline& machine, std::size_t axis);
+BeamTruth draw_beam(const Grade& grade, std::uint64_t seed, const machine::MachineOutline& machine,
+                    std::size_t axis);
 
 }  // namespace trunnion::truth

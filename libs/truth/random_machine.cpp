@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "truth/random_source.hpp"
-#include "truth/truth_reader.hpp"
+#include "geometry/random_source.hpp"
+#include "machine/yaml_reader.hpp"
 #include "truth/units.hpp"
 
 namespace trunnion::truth {
@@ -14,7 +14,7 @@ extern const char* const grades_text;
 namespace {
 
 std::vector<Grade> read_grades() {
-  const TruthReader reader("grades.yaml");
+  const machine::YamlReader reader("grades.yaml");
   std::vector<Grade> all;
   const auto section = [&](const YAML::Node& node,
                            std::initializer_list<std::pair<const char*, double*>> keys) {
@@ -81,7 +81,7 @@ std::vector<Grade> read_grades() {
 
 // A smooth function over the travel without slope: Legendre's second and third polynomial and a wave. Its
 // expected mean square is `deviation` squared, a third from each.
-ErrorFunction curve(RandomSource& random, double deviation, const AxisOutline& axis) {
+ErrorFunction curve(geometry::RandomSource& random, double deviation, const machine::AxisOutline& axis) {
   const double share = deviation / std::sqrt(3.0);
   const double second = share * std::sqrt(5.0) * random.normal();
   const double third = share * std::sqrt(7.0) * random.normal();
@@ -96,7 +96,7 @@ ErrorFunction curve(RandomSource& random, double deviation, const AxisOutline& a
 }
 
 // A periodic function of a turn: the first three harmonics.
-ErrorFunction turn(RandomSource& random, double deviation) {
+ErrorFunction turn(geometry::RandomSource& random, double deviation) {
   ErrorFunction f;
   for (int k = 1; k <= 3; ++k) {
     const double amplitude = deviation * std::sqrt(2.0 / 3.0) * random.normal();
@@ -105,8 +105,8 @@ ErrorFunction turn(RandomSource& random, double deviation) {
   return f;
 }
 
-void draw_linear(const Grade::Linear& grade, std::size_t axis, const AxisOutline& outline,
-                 RandomSource& random, AxisTruth& out) {
+void draw_linear(const Grade::Linear& grade, std::size_t axis, const machine::AxisOutline& outline,
+                 geometry::RandomSource& random, AxisTruth& out) {
   for (std::size_t c = 0; c < component_count; ++c) {
     const bool along = c == axis;
     ErrorFunction f = curve(random,
@@ -124,7 +124,8 @@ void draw_linear(const Grade::Linear& grade, std::size_t axis, const AxisOutline
   }
 }
 
-void draw_rotary(const Grade::Rotary& grade, std::size_t axis, RandomSource& random, AxisTruth& out) {
+void draw_rotary(const Grade::Rotary& grade, std::size_t axis, geometry::RandomSource& random,
+                 AxisTruth& out) {
   const auto about = static_cast<Eigen::Index>(axis % 3);
   for (Eigen::Index i = 0; i < 3; ++i) {
     const double displacement = grade.displacement_um * um * random.normal();
@@ -151,9 +152,9 @@ const std::vector<Grade>& grades() {
   return all;
 }
 
-GeometryTruth draw_machine(const Grade& grade, std::uint64_t seed, const MachineOutline& machine) {
+GeometryTruth draw_machine(const Grade& grade, std::uint64_t seed, const machine::MachineOutline& machine) {
   GeometryTruth truth;
-  RandomSource random(seed);
+  geometry::RandomSource random(seed);
   const auto about_one = [&] { return std::max(0.2, 1 + 0.2 * random.normal()); };
   std::array<bool, axis_count> rotary{};
   const auto& design = machine.design;

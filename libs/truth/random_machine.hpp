@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "truth/machine_outline.hpp"
+#include "machine/machine_outline.hpp"
 #include "truth/true_geometry.hpp"
 
 namespace trunnion::truth {
@@ -49,6 +49,6 @@ struct Grade {
 const std::vector<Grade>& grades();
 
 /// Draws the errors of the axes that the machine has. The same bits for the same arguments on every host.
-GeometryTruth draw_machine(const Grade& grade, std::uint64_t seed, const MachineOutline& machine);
+GeometryTruth draw_machine(const Grade& grade, std::uint64_t seed, const machine::MachineOutline& machine);
 
 }  // namespace trunnion::truth

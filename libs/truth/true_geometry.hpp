@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The geometry of a machine as it really is: the error model of libs/volumetric with the errors of
+// The geometry of a machine as it really is: the error model of libs/compensation with the errors of
 // truth.yaml.
 #pragma once
 
-#include "volumetric/error_model.hpp"
+#include "compensation/error_model.hpp"
 
 namespace trunnion::truth {
 

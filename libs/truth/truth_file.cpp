@@ -5,24 +5,24 @@
 #include <stdexcept>
 
 #include "canonical/axes.hpp"
+#include "compensation/structure.hpp"
 #include "machine/yaml.hpp"
+#include "machine/yaml_reader.hpp"
 #include "truth/drive_section.hpp"
 #include "truth/error_section.hpp"
 #include "truth/probe_section.hpp"
 #include "truth/random_drive.hpp"
 #include "truth/random_machine.hpp"
-#include "truth/truth_reader.hpp"
 #include "truth/units.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::truth {
 namespace {
 
-constexpr Limits place{-1e5, 1e5};         // mm
-constexpr Limits error_limits{-1e5, 1e5};  // um or urad: 100 mm, 0.1 rad
+constexpr machine::Limits place{-1e5, 1e5};         // mm
+constexpr machine::Limits error_limits{-1e5, 1e5};  // um or urad: 100 mm, 0.1 rad
 using canonical::axis_letters;
 
-bool turns(const MachineOutline& machine, std::size_t axis) {
+bool turns(const machine::MachineOutline& machine, std::size_t axis) {
   const auto& p = machine.design;
   for (const auto* side : {&p.table_2, &p.table_1, &p.table_0, &p.head_2, &p.head_1, &p.head_0})
     if (*side && 3 + (*side)->angle == axis) return true;
@@ -30,11 +30,14 @@ bool turns(const MachineOutline& machine, std::size_t axis) {
 }
 
 // X, Y, Z and the axes that turn.
-bool in_chain(const MachineOutline& machine, std::size_t axis) { return axis < 3 || turns(machine, axis); }
+bool in_chain(const machine::MachineOutline& machine, std::size_t axis) {
+  return axis < 3 || turns(machine, axis);
+}
 
 class TruthParser {
  public:
-  TruthParser(const std::string& file, const MachineOutline& machine) : reader_(file), machine_(machine) {}
+  TruthParser(const std::string& file, const machine::MachineOutline& machine)
+      : reader_(file), machine_(machine) {}
 
   Truth parse(const YAML::Node& root) {
     if (root.IsNull()) return truth_;
@@ -177,7 +180,7 @@ class TruthParser {
                  rise + ", ambient_K, time_constant_s, shift_um_per_K, tilt_urad_per_K" +
                      (linear ? ", expansion_um_per_m_K, fixed_point_mm" : ""),
                  [&](const std::string& key, const YAML::Node& v) {
-                   const Limits effect{-1e3, 1e3};
+                   const machine::Limits effect{-1e3, 1e3};
                    if (key == rise) return heat.rise_per_speed = unit * reader_.number(v, {0, 1e3}), true;
                    if (key == "ambient_K") return heat.constant_rise = reader_.number(v, {-50, 50}), true;
                    if (key == "time_constant_s")
@@ -249,14 +252,14 @@ class TruthParser {
       reader_.fail(root["structure"] ? root["structure"] : root["beam"] ? root["beam"] : root, *refused);
   }
 
-  TruthReader reader_;
-  const MachineOutline& machine_;
+  machine::YamlReader reader_;
+  const machine::MachineOutline& machine_;
   Truth truth_;
 };
 
 }  // namespace
 
-std::optional<LocationError> location_error(GeometryTruth& truth, const MachineOutline& machine,
+std::optional<LocationError> location_error(GeometryTruth& truth, const machine::MachineOutline& machine,
                                             const std::string& name) {
   if (name.size() != 3 || (name[1] != '0' && name[1] != 'O')) return std::nullopt;
   const auto component = std::string_view("XYZABC").find(name[0]);
@@ -277,7 +280,7 @@ std::optional<LocationError> location_error(GeometryTruth& truth, const MachineO
   return LocationError{component < 3 ? &axis->displacement[part] : &axis->inclination[part], component > 2};
 }
 
-TrueGeometry make_geometry(const GeometryTruth& truth, const MachineOutline& machine,
+TrueGeometry make_geometry(const GeometryTruth& truth, const machine::MachineOutline& machine,
                            const std::string& file) {
   auto made = TrueGeometry::make(machine.design, truth);
   if (const auto* refused = std::get_if<std::string>(&made))
@@ -285,7 +288,7 @@ TrueGeometry make_geometry(const GeometryTruth& truth, const MachineOutline& mac
   return std::get<TrueGeometry>(std::move(made));
 }
 
-Truth parse_truth(const std::string& text, const std::string& file, const MachineOutline& machine) {
+Truth parse_truth(const std::string& text, const std::string& file, const machine::MachineOutline& machine) {
   const auto root = machine::parse_yaml(text, file);
   return TruthParser(file, machine).parse(root);
 }

@@ -33,7 +33,7 @@ truth::Truth truth_of(const machine::MachineConfig& machine, const machine::Para
                       std::uint16_t channel) {
   const auto file = machine.directory + "/truth.yaml";
   if (!std::filesystem::exists(file)) return {};
-  return truth::parse_truth(machine::read_text(file), file, truth::outline_of(delivered, channel));
+  return truth::parse_truth(machine::read_text(file), file, machine::outline_of(delivered, channel));
 }
 
 collision::MachineBodies bodies_of(const std::string& directory, const machine::Parameters& active,

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "analysis/part_path.hpp"
+#include "part_path.hpp"
 
 namespace trunnion::analysis {
 namespace {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "analysis/program_run.hpp"
+#include "motion/blended_path.hpp"
 
 namespace trunnion::analysis::tip_path_test {
 namespace {

@@ -50,7 +50,7 @@ class HiddenTruth : public testing::TestWithParam<geometry::Machine> {
     return all;
   }
 
-  truth::RandomSource random_;
+  geometry::RandomSource random_;
   geometry::ChainParameters real_;
 };
 
@@ -59,7 +59,7 @@ TEST_P(HiddenTruth, WithoutNoiseTheTouchesGiveTheTrueVectors) {
     const TrueMachine machine(real_, metrology::believed(real_, random_));
     auto in = inputs(machine);
     in.calibrate_probe = true;
-    truth::TouchProbeTruth probe;
+    touch_probe::TouchProbeTruth probe;
     probe.pre_travel = 0.01;
     const auto result = machine.measure(in, probe, in.sphere);
     EXPECT_EQ(result.not_observed, std::vector<std::string>{});
@@ -80,7 +80,7 @@ TEST_P(HiddenTruth, TheStatedUncertaintyIsHonest) {
   for (const bool calibrated : {false, true}) {
     auto in = inputs(machine);
     in.calibrate_probe = calibrated;
-    truth::TouchProbeTruth probe;
+    touch_probe::TouchProbeTruth probe;
     probe.pre_travel = 0.01, probe.repeatability = 0.002;
     int covered = 0;
     std::vector<std::vector<double>> errors;

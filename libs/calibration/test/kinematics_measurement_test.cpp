@@ -52,7 +52,7 @@ TEST(KinematicsMeasurement, FindsTheOffsetsOfATableWithIdealDirections) {
 
 TEST(KinematicsMeasurement, CalibratingTheProbeRemovesItsPreTravel) {
   const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
-  truth::TouchProbeTruth probe;
+  touch_probe::TouchProbeTruth probe;
   probe.pre_travel = 0.012;
   auto in = inputs_of(machine);
   const auto plain = machine.measure(in, probe, sphere);
@@ -80,7 +80,7 @@ TEST(KinematicsMeasurement, LimitsStopItWithOneLineAndNumbers) {
   EXPECT_THAT(fault([&] { machine.measure(in, {}, sphere - Vec3(0.3, 0, 0)); }),
               testing::HasSubstr("pose A0 C0, touch 1: no contact within the measuring path of 0.05 mm"));
   in = inputs_of(machine);
-  truth::TouchProbeTruth probe;
+  touch_probe::TouchProbeTruth probe;
   probe.pre_travel = 0.03;
   EXPECT_THAT(
       fault([&] { machine.measure(in, probe, sphere); }),
@@ -105,7 +105,7 @@ TEST(KinematicsMeasurement, AVectorBeyondItsToleranceIsAnAlarm) {
 
 TEST(KinematicsMeasurement, TheNoiseOfEachTouchIsItsOwn) {
   const TrueMachine machine(geometry::ac_table(), geometry::ac_table());
-  truth::TouchProbeTruth probe;
+  touch_probe::TouchProbeTruth probe;
   probe.pre_travel = 0.01;  // so that a pre-travel below zero, which there is not, stays out
   probe.repeatability = 0.002;
   auto in = inputs_of(machine);
@@ -118,10 +118,10 @@ TEST(KinematicsMeasurement, TheNoiseOfEachTouchIsItsOwn) {
 
 TEST(KinematicsMeasurement, ProbeAndSphereAreThoseOfTheMachineUnlessTheInputsNameOthers) {
   TrueMachine machine(geometry::ac_table(), geometry::ac_table());
-  truth::TouchProbeTruth probe;
+  touch_probe::TouchProbeTruth probe;
   probe.length = 143, probe.ball_radius = 2;
-  const truth::SphereGauge gauge{sphere, 10, Vec3(0, 0.6, -0.8), 4, 50};
-  machine.measured.gauges = probe_and_sphere(probe, {truth::CuboidGauge{}, gauge});
+  const touch_probe::SphereGauge gauge{sphere, 10, Vec3(0, 0.6, -0.8), 4, 50};
+  machine.measured.gauges = probe_and_sphere(probe, {touch_probe::CuboidGauge{}, gauge});
   const auto in = default_inputs(machine.measured);
   EXPECT_EQ(in.probe_length, 143);
   EXPECT_EQ(in.ball_diameter, 4);
@@ -129,13 +129,13 @@ TEST(KinematicsMeasurement, ProbeAndSphereAreThoseOfTheMachineUnlessTheInputsNam
   EXPECT_EQ(in.sphere_diameter, 20);
   EXPECT_EQ(*in.shaft, Vec3(0, 0.6, -0.8));
   EXPECT_EQ(in.shaft_diameter, 8);
-  EXPECT_FALSE(probe_and_sphere(probe, {truth::CuboidGauge{}}));
+  EXPECT_FALSE(probe_and_sphere(probe, {touch_probe::CuboidGauge{}}));
   EXPECT_FALSE(probe_and_sphere(std::nullopt, {gauge}));
   // Where the shaft of the true sphere is not expected, a touch meets it first.
   auto unaware = in;
   unaware.shaft.reset();
   const auto plan = std::get<MeasurementPlan>(plan_measurement(unaware, machine.measured));
-  const truth::SphereGauge hidden{sphere, 10, Vec3::UnitX(), 4, 50};
+  const touch_probe::SphereGauge hidden{sphere, 10, Vec3::UnitX(), 4, 50};
   EXPECT_THAT(
       fault([&] { touch_virtually(machine.report, unaware, machine.measured, plan, probe, {hidden}); }),
       testing::HasSubstr("pose A0 C0, touch 1: the probe touches before the measuring path of 2 mm begins"));
@@ -341,7 +341,7 @@ TEST(KinematicsMeasurement, AdaptPutsAnotherHeadsEndWhereTheReferenceHadIt) {
 TEST(KinematicsMeasurement, ProtocolHasPosesVectorsAndTheSameBytesForTheSameInputs) {
   const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
   const auto in = inputs_of(machine);
-  truth::TouchProbeTruth probe;
+  touch_probe::TouchProbeTruth probe;
   probe.repeatability = 0.001;
   const auto result = machine.measure(in, probe, sphere);
   const ProtocolHead head{"2026-01-31", "12:00:00", "p.txt", "virtual"};

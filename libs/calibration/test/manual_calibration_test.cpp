@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "calibration/virtual_dial.hpp"
+#include "geometry/random_source.hpp"
 #include "true_machine.hpp"
-#include "truth/random_source.hpp"
 
 namespace trunnion::calibration {
 namespace {
@@ -34,7 +34,7 @@ ChainParameters real_of(ManualKind kind) {
   return p;
 }
 
-ChainParameters believed(ChainParameters p, truth::RandomSource& random) {
+ChainParameters believed(ChainParameters p, geometry::RandomSource& random) {
   const auto wrong = [&] { return 0.8 * random.uniform() - 0.4; };
   const auto kind = *manual_kind(p);
   if (kind == ManualKind::ac_table) {
@@ -63,7 +63,7 @@ class ManualCalibration : public testing::TestWithParam<ManualKind> {};
 TEST_P(ManualCalibration, TheFormulasGiveTheVectorsOfTheMachine) {
   const auto real = real_of(GetParam());
   ASSERT_EQ(manual_kind(real), GetParam());
-  truth::RandomSource random(3);
+  geometry::RandomSource random(3);
   for (const double alpha : {90.0, 40.0, 30.0}) {
     const auto model = believed(real, random);
     const TrueMachine machine(real, model);
@@ -78,7 +78,7 @@ TEST_P(ManualCalibration, TheFormulasGiveTheVectorsOfTheMachine) {
 TEST_P(ManualCalibration, TheCorrectionsOfTheNinePoseCheckGiveThemToo) {
   const auto kind = GetParam();
   const auto real = real_of(kind);
-  truth::RandomSource random(4);
+  geometry::RandomSource random(4);
   const auto model = believed(real, random);
   const TrueMachine machine(real, model);
   const Vec3 place = kind == ManualKind::ac_table ? Vec3(-140, -150, -420) : Vec3(70, 90, -300);

@@ -28,7 +28,7 @@ TEST_P(NewMachines, TheSphereCheckIsWithin20MicrometresAfterIt) {
   machine::Parameters parameters;
   parameters.values = machine::machine_parameters(
       machine::load_machine(std::string(TRUNNION_SOURCE) + "/configs/machines/" + GetParam().machine));
-  const auto outline = truth::outline_of(parameters, 0);
+  const auto outline = machine::outline_of(parameters, 0);
   const MeasuredMachine measured{GetParam().machine, machine::chain_parameters(parameters, 0), outline};
   auto in = default_inputs(measured);
   in.sphere = GetParam().sphere;
@@ -49,7 +49,7 @@ TEST_P(NewMachines, TheSphereCheckIsWithin20MicrometresAfterIt) {
         machine::make_chain(parameters, 0), outline);
     const auto plan = plan_measurement(in, measured);
     ASSERT_TRUE(std::holds_alternative<MeasurementPlan>(plan)) << std::get<std::string>(plan);
-    truth::TouchProbeTruth probe;
+    touch_probe::TouchProbeTruth probe;
     probe.repeatability = 0.0005;
     probe.seed = seed;
     const auto result = evaluate(in, measured,

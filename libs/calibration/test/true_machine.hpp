@@ -12,18 +12,19 @@
 namespace trunnion::calibration {
 
 /// A probe with the nominal dimensions of the inputs.
-inline truth::TouchProbeTruth nominal(const MeasurementInputs& inputs, truth::TouchProbeTruth probe = {}) {
+inline touch_probe::TouchProbeTruth nominal(const MeasurementInputs& inputs,
+                                            touch_probe::TouchProbeTruth probe = {}) {
   probe.length = inputs.probe_length;
   probe.ball_radius = inputs.ball_diameter / 2;
   return probe;
 }
 /// A sphere without a shaft.
-inline std::vector<truth::Solid> sphere_at(const MeasurementInputs& inputs, const Vec3& centre) {
-  return {truth::SphereGauge{centre, inputs.sphere_diameter / 2}};
+inline std::vector<touch_probe::Solid> sphere_at(const MeasurementInputs& inputs, const Vec3& centre) {
+  return {touch_probe::SphereGauge{centre, inputs.sphere_diameter / 2}};
 }
 
 struct TrueMachine {
-  truth::MachineOutline outline;
+  machine::MachineOutline outline;
   truth::PoseReport report;
   MeasuredMachine measured;
 
@@ -35,17 +36,17 @@ struct TrueMachine {
         measured{"test", model, outline} {}
 
   // Travel is not what these tests are about.
-  static truth::MachineOutline wide(const ChainParameters& real) {
+  static machine::MachineOutline wide(const ChainParameters& real) {
     auto machine = truth::outline(real);
     for (std::size_t i = 0; i < 3; ++i) machine.axes[i] = {true, -2000, 2000};
     for (const auto slot : metrology::all_slots)
       if (const auto& axis = axis_at(real, slot))
         machine.axes[3 + axis->angle] =
-            axis->angle == 2 ? truth::AxisOutline{true, -1e5, 1e5} : truth::AxisOutline{true, -120, 120};
+            axis->angle == 2 ? machine::AxisOutline{true, -1e5, 1e5} : machine::AxisOutline{true, -120, 120};
     return machine;
   }
 
-  KinematicsResult measure(const MeasurementInputs& inputs, const truth::TouchProbeTruth& probe,
+  KinematicsResult measure(const MeasurementInputs& inputs, const touch_probe::TouchProbeTruth& probe,
                            const Vec3& sphere) const {
     const auto fault = fault_of(inputs, measured);
     if (!fault.empty()) throw std::runtime_error(fault);

@@ -23,14 +23,14 @@ TEST(VirtualGauges, AreAsExpectedWithoutATruth) {
   EXPECT_EQ(probe.repeatability, 0);
   const auto solids = true_solids({}, expected(), {});
   ASSERT_EQ(solids.size(), 1u);
-  EXPECT_EQ(std::get<truth::SphereGauge>(solids[0]).radius, 10);
+  EXPECT_EQ(std::get<touch_probe::SphereGauge>(solids[0]).radius, 10);
 }
 
 TEST(VirtualGauges, AreThoseOfTheTruthWithTheChanges) {
   truth::Truth truth;
   truth.probe.emplace();
   truth.probe->length = 180, truth.probe->pre_travel = 0.004;
-  truth.solids.push_back(truth::SphereGauge{Vec3(5, 5, 5), 12});
+  truth.solids.push_back(touch_probe::SphereGauge{Vec3(5, 5, 5), 12});
   GaugeChanges changes;
   changes.repeatability = 0.001, changes.seed = 7, changes.sphere = Vec3(6, 5, 5);
   const auto probe = true_probe(truth, expected(), changes);
@@ -40,7 +40,7 @@ TEST(VirtualGauges, AreThoseOfTheTruthWithTheChanges) {
   EXPECT_EQ(probe.seed, 7u);
   const auto solids = true_solids(truth, expected(), changes);
   ASSERT_EQ(solids.size(), 1u);
-  const auto& sphere = std::get<truth::SphereGauge>(solids[0]);
+  const auto& sphere = std::get<touch_probe::SphereGauge>(solids[0]);
   EXPECT_EQ(sphere.radius, 12);
   EXPECT_EQ(sphere.centre.x(), 6);
 }

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "parameter_store/tool_tables.hpp"
 #include "reading.hpp"
-#include "tool_tables/tables.hpp"
 
 namespace trunnion::channel_setup {
 namespace {

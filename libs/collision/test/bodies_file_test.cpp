@@ -98,10 +98,10 @@ TEST(DerivedBodies, ATableWhereTheLastRotaryAxisIsAndASpindleNose) {
 TEST(DerivedBodies, ProbeAndSphereAreThoseOfTheTruth) {
   const auto links = std::get<MachineLinks>(MachineLinks::make(geometry::ac_table()));
   BodySet set;
-  truth::TouchProbeTruth probe;
+  touch_probe::TouchProbeTruth probe;
   probe.length = 100, probe.ball_radius = 3;
   add_probe(links, probe, set);
-  add_solids(links, {truth::SphereGauge{Vec3(1, 2, 3), 12.5, -Vec3::UnitZ(), 4, 50}}, set);
+  add_solids(links, {touch_probe::SphereGauge{Vec3(1, 2, 3), 12.5, -Vec3::UnitZ(), 4, 50}}, set);
   ASSERT_EQ(set.bodies.size(), 5u);
   EXPECT_EQ(set.bodies[0].position, Vec3(0, 0, -100)) << "the ball";
   EXPECT_NEAR(set.bodies[1].position.z(), -80, 1e-12) << "stylus from -60 to -100";

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "geometry/angle.hpp"
+#include "geometry/random_source.hpp"
 #include "geometry/test/machines.hpp"
-#include "truth/random_source.hpp"
 
 namespace trunnion::collision {
 namespace {
@@ -92,7 +92,7 @@ CollisionModel workshop(double clearance) {
 
 TEST(CollisionModel, NothingIsOverlookedBetweenTheSamplesOfRandomMoves) {
   const auto model = workshop(1);
-  truth::RandomSource random(11);
+  geometry::RandomSource random(11);
   const auto draw = [&](double low, double high) { return low + (high - low) * random.uniform(); };
   int contacts = 0, free = 0;
   for (int i = 0; i < 200; ++i) {

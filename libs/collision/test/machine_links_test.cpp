@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "compensation/structure.hpp"
+#include "geometry/random_source.hpp"
 #include "geometry/test/machines.hpp"
-#include "truth/random_source.hpp"
-#include "volumetric/structure.hpp"
 
 namespace trunnion::collision {
 namespace {
@@ -21,7 +21,7 @@ MachineLinks links_of(const geometry::ChainParameters& design, const std::string
 void expect_the_chain(const geometry::ChainParameters& design, const std::string& structure) {
   const auto links = links_of(design, structure);
   const auto chain = geometry::make(design);
-  truth::RandomSource random(7);
+  geometry::RandomSource random(7);
   std::vector<Placement> tool, workpiece;
   for (int i = 0; i < 200; ++i) {
     AxisPosition position{};

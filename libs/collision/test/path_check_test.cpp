@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/random_source.hpp"
 #include "geometry/test/machines.hpp"
-#include "truth/random_source.hpp"
 
 namespace trunnion::collision {
 namespace {
@@ -111,7 +111,7 @@ TEST(PathCheck, NoSampleOfARandomPathIsNearerThanTheClearanceBeforeItsContact) {
   constexpr int samples = 300;  // of a move
   int contacts = 0, free = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    truth::RandomSource random(seed);
+    geometry::RandomSource random(seed);
     const auto number = [&](double low, double high) { return low + (high - low) * random.uniform(); };
     auto links = std::get<MachineLinks>(MachineLinks::make(design));
     const Vec3 tip = links.face();

@@ -7,9 +7,9 @@
 
 #include <algorithm>
 
+#include "geometry/random_source.hpp"
 #include "projected_distance.hpp"
-#include "truth/random_source.hpp"
-#include "truth/solid.hpp"
+#include "touch_probe/solid.hpp"
 
 namespace trunnion::collision {
 namespace {
@@ -26,7 +26,7 @@ double distance(const Shape& a, const Placement& pa, const Shape& b, const Place
 }
 
 struct Random {
-  truth::RandomSource source;
+  geometry::RandomSource source;
   double operator()(double low, double high) { return low + (high - low) * source.uniform(); }
   Vec3 vector(double size) { return {(*this)(-size, size), (*this)(-size, size), (*this)(-size, size)}; }
   Placement placement(double size) {
@@ -44,16 +44,17 @@ Hull hull_of(const Vec3& half) {
 }
 
 TEST(ShapeDistance, OfASphereFromABoxACylinderAndAHullInClosedForm) {
-  Random random{truth::RandomSource(3)};
+  Random random{geometry::RandomSource(3)};
   int overlapping = 0;
   for (int i = 0; i < 2000; ++i) {
     const Vec3 half(random(1, 200), random(1, 200), random(0.5, 60));
     const double radius = random(0.5, 20), size = 120;
     const auto place = random.placement(size), ball = random.placement(size);
-    const truth::CuboidGauge box{place.translation, half, place.rotation};
-    const truth::CylinderGauge cylinder{place.translation, place.rotation.col(2), half.x(), half.z()};
-    const double to_box = truth::signed_distance(truth::Solid(box), ball.translation) - radius;
-    const double to_cylinder = truth::signed_distance(truth::Solid(cylinder), ball.translation) - radius;
+    const touch_probe::CuboidGauge box{place.translation, half, place.rotation};
+    const touch_probe::CylinderGauge cylinder{place.translation, place.rotation.col(2), half.x(), half.z()};
+    const double to_box = touch_probe::signed_distance(touch_probe::Solid(box), ball.translation) - radius;
+    const double to_cylinder =
+        touch_probe::signed_distance(touch_probe::Solid(cylinder), ball.translation) - radius;
     overlapping += to_box < 0;
     for (const auto& [shape, expected] : {std::pair<Shape, double>{Box{half}, to_box},
                                           {hull_of(half), to_box},
@@ -70,7 +71,7 @@ TEST(ShapeDistance, OfASphereFromABoxACylinderAndAHullInClosedForm) {
 }
 
 TEST(ShapeDistance, OfBoxesAndCylindersAsProjectionsFromOneToTheOtherFindIt) {
-  Random random{truth::RandomSource(5)};
+  Random random{geometry::RandomSource(5)};
   int apart = 0;
   for (int i = 0; i < 150; ++i) {
     const auto shape = [&]() -> Shape {
@@ -94,7 +95,7 @@ TEST(ShapeDistance, OfSpheresIsNegativeByTheDepth) {
 }
 
 TEST(ShapeDistance, OfBodiesThatOverlapIsNeverAboveZero) {
-  Random random{truth::RandomSource(8)};
+  Random random{geometry::RandomSource(8)};
   for (int i = 0; i < 2000; ++i) {
     const Shape a = Cylinder{random(1, 80), random(1, 120)}, b = Box{Vec3(random(1, 90), random(1, 90), 20)};
     auto pa = random.placement(50), pb = random.placement(50);

@@ -45,10 +45,10 @@ CollisionModel machine(double lid = 0) {
                                          {"wall 4", 60.0, 2.0, Vec3(40, 2, 25)}})
     set.bodies.push_back({name, workpiece, Box{half}, Vec3(x, y, -375)});
   if (lid > 0) set.bodies.push_back({"lid", workpiece, Box{Vec3(40, 40, 2)}, Vec3(60, 40, -360 + lid)});
-  truth::TouchProbeTruth probe;
+  touch_probe::TouchProbeTruth probe;
   probe.length = 60;
   add_probe(links, probe, set);
-  add_solids(links, {truth::SphereGauge{Vec3(60, 40, -360), 12.5, -Vec3::UnitZ(), 4, 40}}, set);
+  add_solids(links, {touch_probe::SphereGauge{Vec3(60, 40, -360), 12.5, -Vec3::UnitZ(), 4, 40}}, set);
   return {std::move(links), std::move(set)};
 }
 

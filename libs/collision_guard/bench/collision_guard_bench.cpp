@@ -13,7 +13,7 @@
 #include "analysis/file_source.hpp"
 #include "analysis/program_run.hpp"
 #include "collision_guard/collision_guard.hpp"
-#include "tool_tables/machine_tables.hpp"
+#include "parameter_store/machine_tables.hpp"
 
 namespace trunnion::collision_guard {
 namespace {

@@ -11,11 +11,11 @@
 #include "analysis/file_source.hpp"
 #include "analysis/program_folders.hpp"
 #include "analysis/program_run.hpp"
+#include "geometry/random_source.hpp"
 #include "language/text_source.hpp"
 #include "machine/chain_parameters.hpp"
+#include "parameter_store/machine_tables.hpp"
 #include "testing_support/rounds.hpp"
-#include "tool_tables/machine_tables.hpp"
-#include "truth/random_source.hpp"
 
 namespace trunnion::collision_guard {
 namespace {
@@ -98,7 +98,7 @@ class Distances {
 };
 
 std::string random_program(std::uint64_t seed) {
-  truth::RandomSource random(seed);
+  geometry::RandomSource random(seed);
   const auto number = [&](double low, double high) { return low + (high - low) * random.uniform(); };
   std::string text = "G90 G54 G17\nG0 Z-50\n";
   char line[160];

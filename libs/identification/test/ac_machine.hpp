@@ -13,13 +13,13 @@ namespace trunnion::identification {
 
 struct DrawnMachine {
   machine::Parameters parameters;
-  truth::MachineOutline outline;
+  machine::MachineOutline outline;
   truth::GeometryTruth truth;
   truth::PoseReport report;
 
   DrawnMachine(const std::string& name, const std::string& grade, std::uint64_t seed)
       : parameters(parameters_of(name)),
-        outline(truth::outline_of(parameters, 0)),
+        outline(machine::outline_of(parameters, 0)),
         truth(draw(grade, seed, outline)),
         report(truth::make_geometry(truth, outline, name), machine::make_chain(parameters, 0), outline) {
     report.tool_length = 100;
@@ -32,7 +32,7 @@ struct DrawnMachine {
     return p;
   }
   static truth::GeometryTruth draw(const std::string& name, std::uint64_t seed,
-                                   const truth::MachineOutline& outline) {
+                                   const machine::MachineOutline& outline) {
     for (const auto& grade : truth::grades())
       if (grade.name == name) return truth::draw_machine(grade, seed, outline);
     throw std::runtime_error(name);

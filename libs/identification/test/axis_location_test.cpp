@@ -52,7 +52,7 @@ double value(const AxisLocation& location, const std::string& name) {
 
 TEST(AxisLocation, OfATableAxisIsFoundFromOneTurnOfABall) {
   const auto parameters = DrawnMachine::parameters_of("ac-table");
-  const auto machine = truth::outline_of(parameters, 0);
+  const auto machine = machine::outline_of(parameters, 0);
   // The tip is where the workpiece sees it: an axis that is displaced by +12 um moves the ball's circle by
   // +12 um, so XOC = 12 um.
   const Vec3 ball(72.411, 0, -350), shift(12e-3, -7e-3, 0), tilt(30e-6, -20e-6, 0);
@@ -68,7 +68,7 @@ TEST(AxisLocation, OfATableAxisIsFoundFromOneTurnOfABall) {
 
 TEST(AxisLocation, HasAnUncertaintyThatCoversTheNoise) {
   const auto parameters = DrawnMachine::parameters_of("ac-table");
-  const auto machine = truth::outline_of(parameters, 0);
+  const auto machine = machine::outline_of(parameters, 0);
   const Vec3 ball(72.411, 0, -350), shift(12e-3, -7e-3, 0), tilt(30e-6, -20e-6, 0);
   const auto found = locate_axis(machine, machine::make_chain(parameters, 0), 5, ball, tool_length,
                                  deviations(ball, shift, tilt, 2000, 1e-3));
@@ -86,7 +86,7 @@ TEST(AxisLocation, HasAnUncertaintyThatCoversTheNoise) {
 // are four standard deviations of that count, sqrt(2000 0.95 0.05) = 9.7, beside it.
 TEST(AxisLocation, CoversWhatSmoothedReadingsHaveInCommon) {
   const auto parameters = DrawnMachine::parameters_of("ac-table");
-  const auto machine = truth::outline_of(parameters, 0);
+  const auto machine = machine::outline_of(parameters, 0);
   const auto model = machine::make_chain(parameters, 0);
   const Vec3 ball(72.411, 0, -350);
   constexpr std::size_t points = 360, width = 9;
@@ -114,7 +114,7 @@ TEST(AxisLocation, CoversWhatSmoothedReadingsHaveInCommon) {
 
 TEST(AxisLocation, SaysWhatABallOnTheAxisDoesNotShow) {
   const auto parameters = DrawnMachine::parameters_of("ac-table");
-  const auto machine = truth::outline_of(parameters, 0);
+  const auto machine = machine::outline_of(parameters, 0);
   const Vec3 ball(0, 0, -300), shift(12e-3, -7e-3, 0);
   const auto found = locate_axis(machine, machine::make_chain(parameters, 0), 5, ball, tool_length,
                                  deviations(ball, shift, Vec3::Zero(), 36));

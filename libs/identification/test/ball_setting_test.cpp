@@ -18,7 +18,7 @@ using testing::HasSubstr;
 // C of the AC trunnion machine: direction -Z through X0 Y0, the point of the axis at Z-400.
 TurnedBall around_c() {
   const auto parameters = DrawnMachine::parameters_of("ac-table");
-  TurnedBall set{truth::outline_of(parameters, 0), machine::make_chain(parameters, 0)};
+  TurnedBall set{machine::outline_of(parameters, 0), machine::make_chain(parameters, 0)};
   set.axis = 5;
   set.tool_length = 100;
   return set;

@@ -26,7 +26,7 @@ const circular_tests::ProgrammedCircle about_the_centre{{10, 20}, 50};
 
 CirclePoints true_points_with(const std::string& errors) {
   const auto parameters = DrawnMachine::parameters_of("ac-table");
-  const auto machine = truth::outline_of(parameters, 0);
+  const auto machine = machine::outline_of(parameters, 0);
   truth::PoseReport report(
       truth::make_geometry(truth::parse_truth(errors, "truth.yaml", machine).geometry, machine, "truth.yaml"),
       machine::make_chain(parameters, 0), machine);

@@ -20,7 +20,7 @@ TEST(KTests, AreOfTheAxisThatSwivelsAndOfTheOneAlongTheTool) {
 
 TEST(KTests, HaveTheAnnexOfTheirMachine) {
   const auto annex = [](const char* machine) {
-    return annex_of(truth::outline_of(DrawnMachine::parameters_of(machine), 0));
+    return annex_of(machine::outline_of(DrawnMachine::parameters_of(machine), 0));
   };
   EXPECT_EQ(annex("ac-table"), 'B');
   EXPECT_EQ(annex("cb-head"), 'A');
@@ -29,7 +29,7 @@ TEST(KTests, HaveTheAnnexOfTheirMachine) {
 
 // A ball at 50 mm about the Z axis: at X50 the deviation along X is radial, at Y50 tangential.
 TEST(KTests, HaveTheDeviationsInTheDirectionsOfTheCircle) {
-  TurnedBall set{truth::outline_of(DrawnMachine::parameters_of("ac-table"), 0), chain_of("ac-table")};
+  TurnedBall set{machine::outline_of(DrawnMachine::parameters_of("ac-table"), 0), chain_of("ac-table")};
   set.radius = 50;
   BallTurn turn;
   turn.speed = -1;

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const truth::MachineOutline& outline() {
+const machine::MachineOutline& outline() {
   static const DrawnMachine machine("ac-table", "new_machine", 1);
   return machine.outline;
 }

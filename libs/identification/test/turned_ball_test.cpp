@@ -28,7 +28,7 @@ constexpr std::size_t c_angle = 2;  // of A B C
 // On the table of the AC trunnion machine, whose C has the direction -Z and passes through X0 Y0.
 TurnedBall ball_on_table() {
   const auto parameters = DrawnMachine::parameters_of("ac-table");
-  TurnedBall set{truth::outline_of(parameters, 0), machine::make_chain(parameters, 0)};
+  TurnedBall set{machine::outline_of(parameters, 0), machine::make_chain(parameters, 0)};
   set.axis = 3 + c_angle;
   set.ball = Vec3(72.411, 0, -350);
   set.tool_length = 100;
@@ -297,7 +297,7 @@ TEST(RTest, ComparesWithStopsBetweenTheSamples) {
 // The reversal error is what differs between the approaches.
 TEST(TrueTips, DependOnTheDirectionOfTheNewestMotion) {
   const auto parameters = DrawnMachine::parameters_of("ac-table");
-  const auto outline = truth::outline_of(parameters, 0);
+  const auto outline = machine::outline_of(parameters, 0);
   const auto errors =
       truth::parse_truth("axes:\n  X: {EXX: [{reversal_um: -4}]}\n", "truth.yaml", outline).geometry;
   const truth::PoseReport report(truth::make_geometry(errors, outline, "truth.yaml"),

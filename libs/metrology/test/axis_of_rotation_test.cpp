@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "geometry/angle.hpp"
+#include "geometry/random_source.hpp"
 #include "metrology/chain_vectors.hpp"
-#include "truth/random_source.hpp"
 
 namespace trunnion::metrology {
 namespace {
@@ -84,7 +84,7 @@ TEST(AxisOfRotation, KeepsTheLimitsOfTheManual) {
 
 TEST(AxisOfRotation, LeastSquaresHaveTheSpreadThatTheirCofactorsState) {
   const Vec3 point(120, -40, 60), direction = Vec3(-1, 0.0001, 0.0002).normalized();
-  truth::RandomSource random(3);
+  geometry::RandomSource random(3);
   constexpr double noise = 0.002;
   constexpr int runs = 1000;
   double across = 0, along = 0, tilt = 0, variance = 0;

@@ -47,7 +47,7 @@ std::vector<MeasuredPose> exact(const ChainParameters& truth) {
 class EveryKind : public testing::TestWithParam<Machine> {};
 
 TEST_P(EveryKind, WithoutNoiseTheVectorsAreTheTrueOnes) {
-  truth::RandomSource random(7);
+  geometry::RandomSource random(7);
   for (int run = 0; run < 5; ++run) {
     const auto truth = as_built(GetParam().parameters, random);
     const auto found = fit_kinematics(believed(truth, random), exact(truth), tool_length);
@@ -70,7 +70,7 @@ TEST_P(EveryKind, WithoutNoiseTheVectorsAreTheTrueOnes) {
 }
 
 // Touches of a probe with a standard deviation of 2 um: four on the equator and the pole, about the spindle.
-std::vector<MeasuredPose> touched(const ChainParameters& truth, truth::RandomSource& random) {
+std::vector<MeasuredPose> touched(const ChainParameters& truth, geometry::RandomSource& random) {
   auto measured = exact(truth);
   const auto chain = chain_of(truth);
   for (auto& pose : measured) {
@@ -89,14 +89,14 @@ std::vector<MeasuredPose> touched(const ChainParameters& truth, truth::RandomSou
 }
 
 TEST_P(EveryKind, TheUncertaintyIsHonest) {
-  truth::RandomSource random(2);
+  geometry::RandomSource random(2);
   const auto truth = as_built(GetParam().parameters, random);
   const auto start = believed(truth, random);
   constexpr int seeds = 100;
   int covered = 0;
   std::vector<std::vector<double>> errors, stated;  // of each component, over the seeds
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    truth::RandomSource noise(seed);
+    geometry::RandomSource noise(seed);
     const auto fit = std::get<KinematicFit>(fit_kinematics(start, touched(truth, noise), tool_length));
     bool within = true;
     std::size_t k = 0;
@@ -199,7 +199,7 @@ TEST(KinematicFit, TheUncertaintyOfTheToolLengthIsThatOfTheLengthOfTheHead) {
 // A tool length that is known by touches only: variance 1/8 of that of a touch.
 TEST(KinematicFit, TheUncertaintyOfACalibratedLengthIsThatOfItsTouches) {
   const auto truth = geometry::cb_head();
-  truth::RandomSource noise(3);
+  geometry::RandomSource noise(3);
   const auto poses = touched(truth, noise);
   const auto with = [&](double cofactor) {
     FitOptions options;

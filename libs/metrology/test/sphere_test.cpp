@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "geometry/random_source.hpp"
 #include "metrology/student.hpp"
-#include "truth/random_source.hpp"
 
 namespace trunnion::metrology {
 namespace {
@@ -50,7 +50,7 @@ TEST(Sphere, TheCofactorsOfEquatorAndPoleAreThoseOfTheirNormals) {
 }
 
 TEST(Sphere, TheSpreadOfNoisyCentresIsTheCofactor) {
-  truth::RandomSource random(11);
+  geometry::RandomSource random(11);
   constexpr double noise = 0.002;
   constexpr int runs = 2000;
   Vec3 squares = Vec3::Zero();

@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "geometry/random_source.hpp"
 #include "geometry/test/machines.hpp"
 #include "metrology/kinematic_fit.hpp"
-#include "truth/random_source.hpp"
 
 namespace trunnion::metrology {
 
@@ -21,12 +21,12 @@ inline std::vector<geometry::Machine> kinds() {
           {"A table", geometry::a_table()}};
 }
 
-inline double between(truth::RandomSource& random, double low, double high) {
+inline double between(geometry::RandomSource& random, double low, double high) {
   return low + (high - low) * random.uniform();
 }
 
 // A machine as it is: its axes are up to 0.3 mrad off.
-inline ChainParameters as_built(ChainParameters p, truth::RandomSource& random) {
+inline ChainParameters as_built(ChainParameters p, geometry::RandomSource& random) {
   for (const Slot slot : all_slots)
     if (auto& axis = axis_at(p, slot))
       for (double& d : axis->direction) d += between(random, -3e-4, 3e-4);
@@ -35,7 +35,7 @@ inline ChainParameters as_built(ChainParameters p, truth::RandomSource& random) 
 
 // What the control believes: every offset 0.5 mm and every direction 0.1 degrees wrong, but the components
 // that slide along an axis, which are a convention.
-inline ChainParameters believed(ChainParameters p, truth::RandomSource& random) {
+inline ChainParameters believed(ChainParameters p, geometry::RandomSource& random) {
   std::array<Vec3, slot_count> kept{};
   kept.fill(Vec3::Zero());
   for (const auto& condition : free_components(p))

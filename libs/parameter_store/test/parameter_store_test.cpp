@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "machine/alarm_constants.hpp"
 #include "parameter_store/parameter_store.hpp"
@@ -306,6 +307,15 @@ TEST(ParameterStore, ATextThatIsNotUtf8IsRefused) {
   const auto reply = store.apply(set({{name, 0, "A\xff"}}), time_text);
   EXPECT_FALSE(reply.accepted);
   EXPECT_THAT(reply.reason, HasSubstr("not UTF-8"));
+}
+
+// The lines of a journal that are whole: a crash may leave a torn last one.
+std::vector<std::string> read_journal(const std::string& text) {
+  std::vector<std::string> lines;
+  std::size_t at = 0;
+  for (auto end = text.find('\n'); end != std::string::npos; at = end + 1, end = text.find('\n', at))
+    if (nlohmann::json::accept(text.substr(at, end - at))) lines.push_back(text.substr(at, end - at));
+  return lines;
 }
 
 TEST(ParameterStore, TheJournalTellsWhoChangedWhatFromWhatToWhat) {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "parameter_store/active_set.hpp"
+#include "parameter_store/tool_tables.hpp"
 #include "testing_support/refusal.hpp"
-#include "tool_tables/tables.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trunnion;

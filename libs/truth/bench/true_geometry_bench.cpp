@@ -14,7 +14,7 @@ geometry::ChainParameters ac_table() {
 }
 
 void pose(benchmark::State& state, bool ideal) {
-  MachineOutline machine;
+  machine::MachineOutline machine;
   machine.design = ac_table();
   for (const std::size_t i : {0u, 1u, 2u}) machine.axes[i] = {true, -400, 400};
   const auto truth = ideal ? GeometryTruth{} : draw_machine(grades()[1], 7, machine);

@@ -10,7 +10,7 @@
 namespace trunnion::truth {
 namespace {
 
-MachineOutline machine() {
+machine::MachineOutline machine() {
   auto m = outline(geometry::ac_table());
   m.drives = {"X", "Y2", "C"};
   m.turning = {"C"};

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "geometry/test/machines.hpp"
-#include "truth/machine_outline.hpp"
+#include "machine/machine_outline.hpp"
 
 namespace trunnion::truth {
 
 /// A machine of `design` with a travel of 800 x 600 x 500 mm.
-inline MachineOutline outline(const geometry::ChainParameters& design) {
-  MachineOutline machine;
+inline machine::MachineOutline outline(const geometry::ChainParameters& design) {
+  machine::MachineOutline machine;
   machine.design = design;
   machine.axes[0] = {true, -400, 400};
   machine.axes[1] = {true, -300, 300};
@@ -20,6 +20,6 @@ inline MachineOutline outline(const geometry::ChainParameters& design) {
   return machine;
 }
 
-inline const MachineOutline ac = outline(geometry::ac_table());
+inline const machine::MachineOutline ac = outline(geometry::ac_table());
 
 }  // namespace trunnion::truth

@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     pose.approach = {1, -1, 0, 1, -1, 0, 1, -1, 0};
     const auto tool = geometry.pose(pose);
     if (!tool.tip.allFinite()) std::abort();
-    truth::TouchProbe probe(truth.probe.value_or(truth::TouchProbeTruth{}), truth.solids);
+    touch_probe::TouchProbe probe(truth.probe.value_or(touch_probe::TouchProbeTruth{}), truth.solids);
     probe.place({truth::Vec3(0, 0, 500)});
     for (const auto& to : {tool.tip, truth::Vec3(truth::Vec3::Zero())})
       if (const auto edge = probe.move({to}, 1); edge && !(*edge > 0 && *edge <= 1)) std::abort();

@@ -4,7 +4,7 @@
 
 #include "channel_fixture.hpp"
 #include "machine/alarm_constants.hpp"
-#include "tool_tables/machine_tables.hpp"
+#include "parameter_store/machine_tables.hpp"
 
 namespace trunnion::channel {
 namespace {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "compensation/volumetric_compensation.hpp"
 #include "machine/parameters.hpp"
 #include "smooth_transition.hpp"
-#include "volumetric/volumetric_compensation.hpp"
 
 namespace trunnion::compensation {
 

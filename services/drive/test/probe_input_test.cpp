@@ -38,12 +38,12 @@ geometry::ChainParameters design() {
 
 // A ball of 3 mm on a probe of 100 mm, a sphere of 25 mm at X100 Z-200 in the workpiece frame.
 ProbeSetup setup(const truth::GeometryTruth& errors = {}) {
-  truth::TouchProbeTruth probe;
+  touch_probe::TouchProbeTruth probe;
   probe.ball_radius = 3, probe.length = 100;
   return {design(),
           std::get<truth::TrueGeometry>(truth::TrueGeometry::make(design(), errors)),
           probe,
-          {truth::SphereGauge{{100, 0, -200}, 12.5}}};
+          {touch_probe::SphereGauge{{100, 0, -200}, 12.5}}};
 }
 
 struct Probe : ::testing::Test, EncoderRowSink {

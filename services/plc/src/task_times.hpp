@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plc_online/task_times.hpp"
+#include "plc/online/task_times.hpp"
 #include "structured_text.hpp"
 
 namespace trunnion::plc {

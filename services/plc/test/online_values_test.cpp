@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "plc_online/shown_variables.hpp"
+#include "plc/online/shown_variables.hpp"
 #include "running_core.hpp"
 
 namespace trunnion::plc {
