@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table of alarms, libs/machine/alarms.yaml, as the generators of constants, documents and the page's catalogue read it."""
+"""The table of alarms, libs/machine/machine/alarms.yaml, as the generators of constants, documents and the page's catalogue read it."""
 import os, re
 import yaml
 

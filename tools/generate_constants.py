@@ -12,7 +12,7 @@ PARAMETER_TYPES = {"integer": "IntegerParameter", "real": "RealParameter", "text
 SERVICE_KEYS = {"name", "required", "per_channel", "cyclic", "not_verified", "stage"}
 
 
-ALARMS = "The alarms of libs/machine/alarms.yaml."
+ALARMS = "The alarms of libs/machine/machine/alarms.yaml."
 
 
 def load(path, key):
@@ -45,7 +45,7 @@ def parameters(path):
             numbers[number] = row["name"]
         kind = PARAMETER_TYPES[choice(path, row, "type", PARAMETER_TYPES)]
         lines.append(f"inline constexpr machine::{kind} {row['name']}{{{first}, \"{row['name']}\"}};")
-    return header(("\"machine/parameter_key.hpp\"",), "The parameters of libs/machine/catalogue.yaml.", "parameter", lines)
+    return header(("\"machine/parameter_key.hpp\"",), "The parameters of libs/machine/machine/catalogue.yaml.", "parameter", lines)
 
 
 def alarms(table):
@@ -88,7 +88,7 @@ def services(path):
     names = [row["name"] for row in rows]
     lines.append(f"/// Every service, in the order of the file.\ninline constexpr ServiceDefinition all[] = {{{', '.join(names)}}};")
     lines.append(f"/// Those that are a stage of the stream, by number from 1.\ninline constexpr ServiceDefinition stages[] = {{{', '.join(row['name'] for row in rows if row.get('stage'))}}};")
-    return header(("\"machine/service_definition.hpp\"",), "The services of libs/machine/services.yaml.", "machine::service", lines)
+    return header(("\"machine/service_definition.hpp\"",), "The services of libs/machine/machine/services.yaml.", "machine::service", lines)
 
 
 def header(includes, about, namespace, lines):

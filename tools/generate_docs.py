@@ -53,7 +53,7 @@ def number(value):
 
 
 def parameters():
-    path = "libs/machine/catalogue.yaml"
+    path = "libs/machine/machine/catalogue.yaml"
     catalogue = yaml.safe_load(read(path))
     out = ["# Parameters", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
            "The number of a parameter is the base of its class, plus 1000 for each unit (channel c, axis a), plus the offset: `10a034` is 100034 "
@@ -80,7 +80,7 @@ def parameters():
     return out
 
 
-ALARMS = "libs/machine/alarms.yaml"
+ALARMS = "libs/machine/machine/alarms.yaml"
 
 
 def alarm_table(): return AlarmTable(os.path.join(ROOT, ALARMS))
@@ -124,7 +124,7 @@ def alarms():
 
 def code_tables():
     """Rows of the G codes, of the calls and of the M codes, and the files they are from."""
-    g_path, m_path, calls = (f"libs/language/{f}" for f in ("codes.cpp", "codes.hpp", "macro_call.hpp"))
+    g_path, m_path, calls = (f"libs/program/language/{f}" for f in ("codes.cpp", "codes.hpp", "macro_call.hpp"))
     dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC"}
     program = lambda text: "`" + joined(text).replace("\\n", " / ") + "`"
     shown = r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT
@@ -174,7 +174,7 @@ def codes():
 
 
 def macros():
-    variables, functions, calls = (f"libs/language/{f}.hpp" for f in ("variables", "arithmetic", "macro_call"))
+    variables, functions, calls = (f"libs/program/language/{f}.hpp" for f in ("variables", "arithmetic", "macro_call"))
     v = [(int(a), int(b), w == "true", joined(text)) for a, b, w, text in
          entries(variables, "VariableRange", r"(\d+),\s*(\d+),\s*VariableKind::\w+,\s*(true|false),\s*" + TEXT)]
     f = [(joined(n), joined(text)) for n, text in entries(functions, "FunctionName", TEXT + r",\s*Function::\w+,\s*" + TEXT)]
@@ -237,12 +237,12 @@ def address(first, index, stride):
 def register_areas():
     """Letter, bits, kept, number of registers and meaning of each area, from the table of the compiler."""
     row = re.compile(r"\{'(\w)', (\d+), (true|false), (true|false), (\d+), \"(.*)\"\}")
-    return row.findall(read("libs/plc/machine/register_area.hpp"))
+    return row.findall(read("libs/plc/plc/machine/register_area.hpp"))
 
 
 def registers():
-    path = "libs/plc/library/registers.yaml"
-    out = ["# PLC registers", "", f"Generated from `{path}` and `libs/plc/machine/register_area.hpp` by `tools/generate_docs.py`.", "",
+    path = "libs/plc/plc/library/registers.yaml"
+    out = ["# PLC registers", "", f"Generated from `{path}` and `libs/plc/plc/machine/register_area.hpp` by `tools/generate_docs.py`.", "",
            "## Areas", "",
            "The areas of the manuals. Every register can be addressed as they print it: `%G2960`, `%F2636.10`, `%K15.6`, `%W50`, `%B31`. Instruction "
            "lists and Structured Text see the same registers.", ""]
@@ -280,7 +280,7 @@ def paragraphs(lines): return [line for paragraph in lines for line in wrapped(p
 
 def input_catalogue():
     """The inputs that have a name on every machine and the names of all registers, for the PLC's view of the page."""
-    path = "libs/plc/library/registers.yaml"
+    path = "libs/plc/plc/library/registers.yaml"
     named = yaml.safe_load(read(path))["registers"]
     inputs = [r for r in named if r["address"].startswith("X")]
     return ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {path} by tools/generate_docs.py.", "",
@@ -290,7 +290,7 @@ def input_catalogue():
             *(f"  {json.dumps(r['name'] + ('_' if 'each' in r or 'count' in r else ''))}," for r in named), "]);"]
 
 
-STANDARD = "libs/plc/standard"
+STANDARD = "libs/plc/plc/standard"
 
 
 def standard_tables():

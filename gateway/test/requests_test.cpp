@@ -17,7 +17,7 @@ idl::channel::ChannelState five_axes() {
   return state;
 }
 
-// The commands themselves are tested in libs/commands.
+// The commands themselves are tested in libs/cluster/commands.
 TEST(Requests, ACommandGoesToTheChannelWithItsAxes) {
   const auto request = channel_request("jog", {{"axis", "C"}, {"speed", -600.5}}, five_axes());
   EXPECT_EQ(request.channel, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generated from libs/machine/alarms.yaml and its translations by tools/generate_docs.py.
+// Generated from libs/machine/machine/alarms.yaml and its translations by tools/generate_docs.py.
 
 /** What an alarm says, its usual cause and what the operator does, by its number and the language. */
 export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { text: string; cause: string; remedy: string }>>>> = {

@@ -105,7 +105,7 @@ class DriveCore {
   /// A test of servo loops runs whose time passes at rest.
   bool needs_time() const { return hardware_->tester() != nullptr && hardware_->tester()->needs_time(); }
 
-  /// For libs/snapshot.
+  /// For libs/cluster/snapshot.
   /// No fields, configure() sets them: dt_, virtual_time_, lead_, prefill_, revision_, axes_, limits_.
   /// No fields, the hardware has a state of its own and gives its status: hardware_, status_.
   /// No fields, every use sets them before: scratch_, before_.

@@ -23,7 +23,7 @@ class EmergencyPress {
   /// With the number 0 when none is held.
   const idl::plc::Press& which() const { return held_; }
 
-  /// For libs/snapshot.
+  /// For libs/cluster/snapshot.
   /// No field, both of its members are fields: held_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

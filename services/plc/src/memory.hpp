@@ -20,7 +20,7 @@ using idl::channel::AuxiliaryKind;
 inline constexpr std::size_t register_count = 512, block_register_count = 3360;
 inline constexpr std::size_t channel_count = 8, spindle_count = 8;
 
-/// The register image; idl/plc.idl defines the areas, libs/plc/machine/register_area.hpp their sizes.
+/// The register image; idl/plc.idl defines the areas, libs/plc/plc/machine/register_area.hpp their sizes.
 struct Registers {
   std::array<std::uint8_t, register_count> x{}, y{}, r{}, k{};
   std::array<std::uint16_t, block_register_count> f{}, g{};
@@ -198,7 +198,7 @@ struct Snapshot {
   Memory memory;
   View view;
 
-  /// For libs/snapshot, as in the structs above.
+  /// For libs/cluster/snapshot, as in the structs above.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("memory", self.memory), visit("view", self.view);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tasks on the register image (libs/plc), whatever language they are written in: their variables are part
-// of the explicit state.
+// The tasks on the register image (libs/plc/plc), whatever language they are written in: their variables are
+// part of the explicit state.
 #pragma once
 
 #include <array>

@@ -14,7 +14,7 @@ namespace trunnion::stream {
 using idl::stream::Stage;
 
 static_assert(std::size(machine::service::stages) == bus::enum_size<Stage>(),
-              "enum Stage of idl/stream.idl and the stages of libs/machine/services.yaml differ");
+              "enum Stage of idl/stream.idl and the stages of libs/machine/machine/services.yaml differ");
 
 /// The service that computes `stage`, as machine.yaml calls it.
 constexpr const char* stage_name(Stage stage) {

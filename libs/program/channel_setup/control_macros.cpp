@@ -6,7 +6,7 @@
 
 namespace trunnion::channel_setup {
 
-// Of the files of libs/channel_setup/macros and of examples/calibration/programs, by the build.
+// Of the files of libs/program/channel_setup/macros and of examples/calibration/programs, by the build.
 extern const char *const macro_O9801,
     *const macro_O9810, *const macro_O9811, *const macro_O9812,
                                                 *const macro_O9813,

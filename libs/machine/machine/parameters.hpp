@@ -48,7 +48,7 @@ const char* to_string(ParameterType type);
 /// Six digits, as on the parameter screen.
 std::string number_text(std::uint32_t number);
 
-/// The catalogue that is compiled in from libs/machine/catalogue.yaml.
+/// The catalogue that is compiled in from libs/machine/machine/catalogue.yaml.
 class Catalogue {
  public:
   static const Catalogue& instance();

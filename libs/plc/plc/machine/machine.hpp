@@ -31,7 +31,7 @@ struct Progress {
   std::array<Caller, most_callers> callers{};
   bool operator==(const Progress&) const = default;
 
-  /// For libs/snapshot.
+  /// For libs/cluster/snapshot.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("interrupted", self.interrupted), visit("instruction", self.instruction), visit("base", self.base);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the language room says of a fault. Numbers and texts are those of libs/machine/alarms.yaml.
+// What the language room says of a fault. Numbers and texts are those of libs/machine/machine/alarms.yaml.
 #pragma once
 
 #include <array>

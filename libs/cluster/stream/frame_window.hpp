@@ -122,7 +122,7 @@ class FrameWindow {
         frames.push_back(slot.frame);
     return frames;
   }
-  /// For libs/snapshot: batches that were taken are left out.
+  /// For libs/cluster/snapshot: batches that were taken are left out.
   /// No field, `frames` are what counts of it: slots_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

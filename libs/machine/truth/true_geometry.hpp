@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The geometry of a machine as it really is: the error model of libs/compensation with the errors of
+// The geometry of a machine as it really is: the error model of libs/machine/compensation with the errors of
 // truth.yaml.
 #pragma once
 
