@@ -12,6 +12,7 @@
 #include "answer.hpp"
 #include "bodies.hpp"
 #include "bus/json.hpp"
+#include "core/router.hpp"
 #include "mailbox.hpp"
 #include "measurement.hpp"
 #include "operating_control.hpp"
@@ -19,7 +20,6 @@
 #include "program_checker.hpp"
 #include "program_planner.hpp"
 #include "recordings.hpp"
-#include "src/router.hpp"
 
 namespace trunnion::gateway {
 

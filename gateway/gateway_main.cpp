@@ -10,13 +10,13 @@
 #include "access/certificate.hpp"
 #include "cluster/cluster_files.hpp"
 #include "cluster/operating_station.hpp"
+#include "core/rights.hpp"
 #include "http_client/client.hpp"
 #include "machine/gateway_settings.hpp"
 #include "machine/service_constants.hpp"
 #include "recording/disk_space.hpp"
 #include "service.hpp"
 #include "service/network.hpp"
-#include "src/rights.hpp"
 #include "standby_service.hpp"
 
 namespace {

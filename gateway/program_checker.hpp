@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "answer.hpp"
+#include "core/worker.hpp"
 #include "mailbox.hpp"
-#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 
@@ -22,7 +22,7 @@ class ProgramChecker {
   struct Job {
     std::string text;
     std::uint16_t channel = 0;
-    std::shared_ptr<const Snapshot> snapshot;
+    std::shared_ptr<const ClusterState> cluster;
     Respond respond;
   };
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "cluster_view.hpp"
+#include "core/lasting_difference.hpp"
 #include "http_client/client.hpp"
 #include "service/node.hpp"
-#include "src/lasting_difference.hpp"
 
 namespace trunnion::gateway {
 

@@ -130,7 +130,7 @@ void FaultRig::settle() {
 void FaultRig::begin() {
   settle();
   cluster_.rows.clear();
-  cluster_.lost_frames = 0;
+  cluster_.lost_batches = 0;
   cluster_.start(part_name);
 }
 

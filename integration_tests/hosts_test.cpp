@@ -158,7 +158,7 @@ TEST_F(Hosts, MulticastFindsTheOthersOnBothVendorsAndTheMotionIsTheSame) {
 }
 
 TEST_F(Hosts, ACableCutForFiftyMillisecondsIsNotNoticedAndForASecondIsAStopOnThePath) {
-  // docs/hosts.md computes it: the reserve for stopping, the cut, and what it takes until the lost frames
+  // docs/hosts.md computes it: the reserve for stopping, the cut, and what it takes until the lost batches
   // have come.
   const Machines machines(256);
   const auto sweeps = on_one_host(machines, {sweep, sweep});  // the second from where the first ends

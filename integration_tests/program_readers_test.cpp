@@ -12,8 +12,8 @@
 #include "bus/json.hpp"
 #include "channel_fixture.hpp"
 #include "collision_guard/collision_guard.hpp"
+#include "core/program_check.hpp"
 #include "parameter_store/machine_tables.hpp"
-#include "src/program_check.hpp"
 
 namespace trunnion {
 namespace {

@@ -47,7 +47,7 @@ run() {
   local name=$1
   shift
   "$trunnion" run "$machine" "$work/circle.nc" --report "$work/$name" "$@" > "$work/$name.log" 2>&1 || fail "$(cat "$work/$name.log")"
-  "$trunnion" export "$work/$name/recording.mcap" --csv feedback_frame > "$work/$name.csv"
+  "$trunnion" export "$work/$name/recording.mcap" --csv feedback > "$work/$name.csv"
 }
 # Cycle, channel, epoch, revision, and both positions of five axes: what does not depend on when and in which batches it
 # was written.

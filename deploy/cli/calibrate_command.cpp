@@ -7,7 +7,7 @@
 
 #include "bus/json.hpp"
 #include "calibration/chain_change.hpp"
-#include "calibration/journal.hpp"
+#include "calibration/last_calibration.hpp"
 #include "calibration_result.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"

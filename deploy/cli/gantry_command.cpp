@@ -86,7 +86,7 @@ int show_gantry(const GantryOptions& o, const Common& common) {
   const cluster::SessionCluster session(o.machine, common.domain);
   cluster::Client client(session.running().run.domain);
   const auto p = machine::parameters_of(client.newest(topics::parameter_set));
-  const auto feedback = client.newest(topics::feedback_frame);
+  const auto feedback = client.newest(topics::feedback);
   const auto reports = stream::gantry_reports(p, feedback);
   if (o.write && !reports.empty() && stream::axes_move(feedback))
     throw std::runtime_error("the axes move: Auto Offset takes the positions at rest; nothing was written");

@@ -17,7 +17,7 @@
 #include "plc/devices/modbus_file.hpp"
 #include "plc/library/register_names.hpp"
 #include "plc/syntax/token.hpp"
-#include "plc/tools/program_run.hpp"
+#include "plc/tools/source_run.hpp"
 #include "plc/tools/uses.hpp"
 
 namespace trunnion::cli {
@@ -236,7 +236,7 @@ int run_plc(const PlcOptions& options, bool json) {
     if (function->result != nullptr)
       result.symbols.push_back({function->name, function->result, function->result_address, -1, false, {}});
   }
-  st::ProgramRun program(result);
+  st::SourceRun program(result);
   for (const auto& text : options.set) {
     const auto [path, value] = assignment(text);
     program.set(path, value);

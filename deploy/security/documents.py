@@ -70,7 +70,7 @@ def permissions(identity, observes, name, topics, suffix, days):
             if identity in t[side] or ("all" in t[side] and not observes) or (side == "readers" and observes):
                 names.append(t["name"])
                 # A stage that is to replace another writes beside it, for the launcher to compare.
-                if t["qos"] == "frame" and (side == "writers" or identity == "deploy"): names.append(t["name"] + suffix)
+                if t["qos"] == "batch" and (side == "writers" or identity == "deploy"): names.append(t["name"] + suffix)
         verb = "publish" if side == "writers" else "subscribe"
         lines = "".join(f"            <topic>{n}</topic>\n" for n in names)
         return f"        <{verb}>\n          <topics>\n{lines}          </topics>\n        </{verb}>\n" if names else ""

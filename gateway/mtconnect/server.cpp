@@ -15,9 +15,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/connections.hpp"
 #include "http/listen.hpp"
 #include "http/transport.hpp"
-#include "src/connections.hpp"
 
 namespace trunnion::gateway::mtconnect {
 
@@ -205,9 +205,9 @@ struct Server::Inside {
   }
 
   void observe() {
-    if (const auto snapshot = mailbox.newest(); snapshot && snapshot != observed) {
-      observed = snapshot;
-      agent.observe(*snapshot, now());
+    if (const auto cluster = mailbox.newest(); cluster && cluster != observed) {
+      observed = cluster;
+      agent.observe(*cluster, now());
     }
     timer.expires_after(observed_every);
     timer.async_wait([this](const boost::system::error_code& error) {
@@ -251,7 +251,7 @@ struct Server::Inside {
   net::steady_timer timer, pause{context};
   Mailbox& mailbox;
   Agent agent;
-  std::shared_ptr<const Snapshot> observed;
+  std::shared_ptr<const ClusterState> observed;
   std::vector<std::weak_ptr<Session>> sessions;
   std::thread thread;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/compression.hpp"
+#include "core/compression.hpp"
 
 #include <gtest/gtest.h>
 

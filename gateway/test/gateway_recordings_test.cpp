@@ -2,10 +2,10 @@
 // Recordings over HTTP, with the real recorder.
 #include <gmock/gmock.h>
 
+#include "core/compression.hpp"
 #include "gateway_fixture.hpp"
 #include "gunzip.hpp"
 #include "held_connections.hpp"
-#include "src/compression.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -113,7 +113,7 @@ TEST_F(GatewayRecordings, AreShownAsATableOfTheExecutedCycles) {
 }
 
 TEST_F(GatewayRecordings, OneRunsAtATimeAndNothingIsOverwritten) {
-  ASSERT_EQ(post("/api/recordings", {{"name", "running.mcap"}, {"topics", {"feedback_frame"}}}).status, 200);
+  ASSERT_EQ(post("/api/recordings", {{"name", "running.mcap"}, {"topics", {"feedback"}}}).status, 200);
   const auto second = post("/api/recordings");
   EXPECT_EQ(second.status, 409);
   EXPECT_THAT(second.body, HasSubstr("running.mcap is being recorded"));
@@ -129,7 +129,7 @@ TEST_F(GatewayRecordings, OneRunsAtATimeAndNothingIsOverwritten) {
 TEST_F(GatewayRecordings, RefusesWhatIsNoRecording) {
   for (const char* body : {R"({"name":"../x.mcap"})", R"({"name":"x"})", R"({"name":3})", R"({"duration":0})",
                            R"({"duration":"1"})", R"({"topics":[]})", R"({"topics":["nothing"]})",
-                           R"({"topics":"feedback_frame"})", R"({"other":1})", "{"})
+                           R"({"topics":"feedback"})", R"({"other":1})", "{"})
     EXPECT_EQ(http_client::request(port_, "POST", "/api/recordings", body).status, 400) << body;
   for (const char* target :
        {"/api/recordings/none.mcap", "/api/recordings/..%2Fstderr.txt", "/api/recordings/none.mcap/table"})

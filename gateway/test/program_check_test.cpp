@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/program_check.hpp"
+#include "core/program_check.hpp"
 
 #include <gtest/gtest.h>
 

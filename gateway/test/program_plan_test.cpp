@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/program_plan.hpp"
+#include "core/program_plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "src/plc_requests.hpp"
-#include "src/requests.hpp"
-#include "src/router.hpp"
+#include "core/plc_requests.hpp"
+#include "core/requests.hpp"
+#include "core/router.hpp"
 
 namespace trunnion::gateway {
 namespace {

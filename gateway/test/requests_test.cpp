@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/requests.hpp"
+#include "core/requests.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "gateway_main.hpp"
 
 int main(int argc, char** argv) {
-  return trunnion::gateway_main(argc, argv, [](trunnion::idl::stream::FeedbackFrame& frame) {
-    for (std::size_t i = 0; i < frame.actual.size(); i += frame.axis_count) frame.actual[i] += 0.002;
+  return trunnion::gateway_main(argc, argv, [](trunnion::idl::stream::Feedback& feedback) {
+    for (std::size_t i = 0; i < feedback.actual.size(); i += feedback.axis_count) feedback.actual[i] += 0.002;
   });
 }

@@ -72,7 +72,7 @@ ActiveSources active_sources(const service::Node& node, const std::string& boot)
       active.stored.emplace();
       return active;
     }
-  const auto stored = ProgramStore(node.options().state_directory + programs_file).load(active.kept);
+  const auto stored = LoadedPrograms(node.options().state_directory + programs_file).load(active.kept);
   try {
     active.files = read_sources(directory);
   } catch (const std::runtime_error&) {

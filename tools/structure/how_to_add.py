@@ -9,18 +9,18 @@ import argparse, glob, os, re, shutil, subprocess, sys
 
 STAGE = "thermal"
 FILES = {
-    "CMakeLists.txt": f"""trunnion_library(trunnion_{STAGE}_core SOURCES src/{STAGE}_core.cpp LINK trunnion_stream)
-target_include_directories(trunnion_{STAGE}_core PUBLIC ${{CMAKE_CURRENT_SOURCE_DIR}}/src)
+    "CMakeLists.txt": f"""trunnion_library(trunnion_{STAGE}_core SOURCES core/{STAGE}_core.cpp LINK trunnion_stream)
+target_include_directories(trunnion_{STAGE}_core PUBLIC ${{CMAKE_CURRENT_SOURCE_DIR}}/core)
 trunnion_service({STAGE} LINK trunnion_{STAGE}_core)
 """,
-    f"src/{STAGE}_core.hpp": """#pragma once
+    f"core/{STAGE}_core.hpp": """#pragma once
 #include "machine/parameters.hpp"
 #include "stream/stage_core.hpp"
 namespace trunnion::thermal {
-class ThermalCore : public stream::StageCore<idl::stream::AxisFrame> {
+class ThermalCore : public stream::StageCore<idl::stream::AxisBatch> {
  public:
   void configure(const machine::Parameters& parameters, std::uint16_t channel) override;
-  bool process(const idl::stream::AxisFrame& in, const stream::FeedbackWindow& feedback, idl::stream::AxisFrame& out) override;
+  bool process(const idl::stream::AxisBatch& in, const stream::FeedbackWindow& feedback, idl::stream::AxisBatch& out) override;
   void load(std::span<const double>) override {}
   void save(stream::StateValues& state) const override { state.clear(); }
  private:
@@ -28,11 +28,11 @@ class ThermalCore : public stream::StageCore<idl::stream::AxisFrame> {
 };
 }
 """,
-    f"src/{STAGE}_core.cpp": """#include "thermal_core.hpp"
+    f"core/{STAGE}_core.cpp": """#include "thermal_core.hpp"
 #include "machine/parameter_constants.hpp"
 namespace trunnion::thermal {
 void ThermalCore::configure(const machine::Parameters& parameters, std::uint16_t) { growth_ = parameters.get(parameter::thermal_growth); }
-bool ThermalCore::process(const idl::stream::AxisFrame& in, const stream::FeedbackWindow&, idl::stream::AxisFrame& out) {
+bool ThermalCore::process(const idl::stream::AxisBatch& in, const stream::FeedbackWindow&, idl::stream::AxisBatch& out) {
   out.axes = in.axes;
   out.setpoints = in.setpoints;
   for (auto& setpoint : out.setpoints) setpoint += growth_;
@@ -41,10 +41,10 @@ bool ThermalCore::process(const idl::stream::AxisFrame& in, const stream::Feedba
 }
 """,
     "service.hpp": """#pragma once
-#include "src/thermal_core.hpp"
+#include "core/thermal_core.hpp"
 #include "stream/stage_service.hpp"
 namespace trunnion::thermal {
-class ThermalService : public stream::StageService<idl::stream::AxisFrame> {
+class ThermalService : public stream::StageService<idl::stream::AxisBatch> {
  public:
   explicit ThermalService(service::Node& node);
  private:
@@ -55,7 +55,7 @@ class ThermalService : public stream::StageService<idl::stream::AxisFrame> {
     "service.cpp": """#include "service.hpp"
 namespace trunnion::thermal {
 ThermalService::ThermalService(service::Node& node)
-    : StageService(node, stream::Stage::THERMAL, topics::gantry_frame, topics::thermal_frame,
+    : StageService(node, stream::Stage::THERMAL, topics::gantry_batch, topics::thermal_batch,
                    [] { return std::make_unique<ThermalCore>(); }),
       growth_(node.bus().writer(topics::spindle_growth)) {}
 }
@@ -155,7 +155,7 @@ def add_operator_command(s):
     file = "libs/cluster/commands/channel_request.cpp"
     s.edit(file, r"^    case Into::parts:\n      request.parts =(.*?)break;\n", r"\g<0>    case Into::lot:\n      request.lot =\g<1>break;\n", named="libs/cluster/commands")
     s.edit(file, r"^    case Into::parts:\n      return request.parts;\n", r"\g<0>    case Into::lot:\n      return request.lot;\n", named="libs/cluster/commands")
-    s.edit("services/channel/src/channel_commands.cpp", r"^    case CommandKind::SET_PARTS:", r"    case CommandKind::SET_LOT:\n      return {};\n\g<0>")
+    s.edit("services/channel/core/channel_commands.cpp", r"^    case CommandKind::SET_PARTS:", r"    case CommandKind::SET_LOT:\n      return {};\n\g<0>")
     for part in ("operator_commands.yaml", "state_table_test.cpp"):
         if part not in s.paragraph: sys.exit(f"CONTRIBUTING.md: the paragraph does not name {part}")
     arguments = ["tools/generate_api.py"]
@@ -166,22 +166,22 @@ def add_operator_command(s):
 def add_stage(s):
     for name, text in FILES.items(): s.write(f"services/{STAGE}/{name}", text)
     s.follow("A service", "A stage")
-    topic = ('  - {handle: thermal_frame, name: trunnion/thermal/axis_frame/1, type: "trunnion::stream::AxisFrame", qos: frame, '
+    topic = ('  - {handle: thermal_batch, name: trunnion/thermal/axis_batch/1, type: "trunnion::stream::AxisBatch", qos: batch, '
              "writers: [thermal], readers: [drive], about: the same with the growth of the spindle}\n")
     s.edit("idl/topics.yaml", r"\Z", topic)
     s.edit("idl/stream.idl", r"(enum Stage \{[^}]*GANTRY)", rf"\g<1>, {STAGE.upper()}")
-    s.edit("idl/topics.yaml", r"(handle: gantry_frame,.*?readers: \[)drive", rf"\g<1>{STAGE}")
+    s.edit("idl/topics.yaml", r"(handle: gantry_batch,.*?readers: \[)drive", rf"\g<1>{STAGE}")
     for path, _, files in os.walk(s.path("services/drive")):
         for name in files:
             file = os.path.relpath(os.path.join(path, name), s.root)
-            if name.endswith(".cpp") and "topics::gantry_frame" in s.read(file):
-                s.write(file, s.read(file).replace("topics::gantry_frame", "topics::thermal_frame"))
+            if name.endswith(".cpp") and "topics::gantry_batch" in s.read(file):
+                s.write(file, s.read(file).replace("topics::gantry_batch", "topics::thermal_batch"))
     s.edit("README.md", r"^(\| \[services/gantry/\][^\n]*\n)", rf"\g<1>| [services/{STAGE}/](services/{STAGE}) | stage: growth of the spindle |\n")
     for machine in os.listdir(s.path("configs/machines")):
         file = f"configs/machines/{machine}/machine.yaml"
         if s.there(file): s.edit(file, r"^(  - \{service: gantry)", rf"  - {{service: {STAGE}}}\n\g<1>", named="machine.yaml")
     s.edit("libs/machine/machine/services.yaml", r"^(  - \{name: gantry,[^\n]*\n)",
-           rf"\g<1>  - {{name: {STAGE}, cyclic: true, stage: {{input: gantry_frame, output: thermal_frame}}}}\n")
+           rf"\g<1>  - {{name: {STAGE}, cyclic: true, stage: {{input: gantry_batch, output: thermal_batch}}}}\n")
 
 
 def object_of(s, directory, target, source):

@@ -79,7 +79,7 @@ export interface ChannelState {
   /** parameter revision in use */
   revision: number;
   /** cycles written and not yet executed */
-  frames_ahead: number;
+  cycles_ahead: number;
   /** every axis has its reference */
   homed: boolean;
   /** parameter 04c914 takes the place of programmed feeds */
@@ -222,8 +222,8 @@ export interface Service {
   lifecycle: "UNCONFIGURED" | "INACTIVE" | "ACTIVE" | "FAULT" | "ABSENT";
   /** What it waits for, or what is wrong */
   detail: string;
-  frames_per_second: number;
-  frames_lost: number;
+  messages_per_second: number;
+  cycles_lost: number;
   /** s */
   uptime: number;
   /** Parameter revision in use, 0 = none yet */

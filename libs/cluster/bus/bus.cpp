@@ -118,7 +118,7 @@ Bus::Bus(Vendor vendor, const NetworkSettings& network, StreamDepth depth)
 }
 
 std::unique_ptr<SharedHistory> Bus::share(QosKind kind, EndpointQos& qos) const {
-  if (kind != QosKind::frame || secured_) return nullptr;
+  if (kind != QosKind::batch || secured_) return nullptr;
   auto history = SharedHistory::make();
   if (history != nullptr) qos.user_data = history->address();
   return history;

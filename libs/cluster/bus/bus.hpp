@@ -21,13 +21,13 @@ TopicDescription describe(const Topic<T>& topic) {
 
 /// Depths of the stream's writers; everything else has a fixed one.
 struct StreamDepth {
-  int frames = 64;
+  int batches = 64;
 };
 
 inline EndpointQos writer_qos(QosKind kind, StreamDepth depth) {
   switch (kind) {
-    case QosKind::frame:
-      return {true, depth.frames};
+    case QosKind::batch:
+      return {true, depth.batches};
     case QosKind::state:
       return {true, 1};
     case QosKind::event:
@@ -41,7 +41,7 @@ inline EndpointQos writer_qos(QosKind kind, StreamDepth depth) {
 
 inline EndpointQos reader_qos(QosKind kind) {
   switch (kind) {
-    case QosKind::frame:
+    case QosKind::batch:
       return {true, 0};
     case QosKind::state:
       return {true, 1};
@@ -62,7 +62,7 @@ class Writer {
   bool write(const T& value) {
     encode(value, buffer_);
     const std::int64_t now = source_time();
-    // First, so that nobody has a frame which a recorder does not find.
+    // First, so that nobody has a batch which a recorder does not find.
     if (history_ != nullptr) history_->write(now, buffer_);
     return raw_->write(buffer_, now);
   }
@@ -177,7 +177,7 @@ class Bus {
     refusals.backend = backend_.get();
     return refusals;
   }
-  // Frames can be recorded from memory, unless the cluster is secured: then certificates decide who reads.
+  // Batches can be recorded from memory, unless the cluster is secured: then certificates decide who reads.
   std::unique_ptr<SharedHistory> share(QosKind kind, EndpointQos& qos) const;
 
   Vendor vendor_;

@@ -10,7 +10,7 @@
 namespace trunnion::bus {
 namespace {
 
-constexpr std::array<const char*, 4> qos_names{"frame", "state", "event", "history"};  // by QosKind
+constexpr std::array<const char*, 4> qos_names{"batch", "state", "event", "history"};  // by QosKind
 
 bool names(const std::vector<std::string>& services, const std::string& service) {
   return std::any_of(services.begin(), services.end(),

@@ -13,7 +13,7 @@ namespace trunnion::bus {
 struct TopicEntry {
   TopicDescription description;
   QosKind qos;
-  std::string handle;  ///< short name, e.g. path_frame
+  std::string handle;  ///< short name, e.g. path_batch
   std::string type;    ///< IDL type name without hash
   std::string schema;  ///< self-contained IDL of the type
   std::string about;
@@ -23,7 +23,7 @@ struct TopicEntry {
 };
 
 const std::vector<TopicEntry>& all_topics();
-/// By topic name or handle; null when there is none.
+/// By topic name or handle, of today or before (former_names.hpp); null when there is none.
 const TopicEntry* find_topic(const std::string& name);
 
 }  // namespace trunnion::bus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The newest messages of a writer in memory, where a recorder on the same host reads them. To send every
-// frame once more by DDS cost the stream 7 % of its speed on Fast DDS; this costs the writer a copy.
+// batch once more by DDS cost the stream 7 % of its speed on Fast DDS; this costs the writer a copy.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ struct SharedMemory;
 /// has it open by then still reads what is in it.
 class SharedHistory {
  public:
-  /// Bytes. As many frames as the DDS writer of a long lead keeps, a thousand of four kilobytes.
+  /// Bytes. As many batches as the DDS writer of a long lead keeps, a thousand of four kilobytes.
   static constexpr std::uint64_t capacity = std::uint64_t{4} << 20;
 
   /// Null when the system gives no memory for it.

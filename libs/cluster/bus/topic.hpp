@@ -5,7 +5,7 @@
 namespace trunnion::bus {
 
 /// The classes of quality of service; what each means is said at the head of idl/topics.yaml.
-enum class QosKind { frame, state, event, history };
+enum class QosKind { batch, state, event, history };
 
 template <class T>
 struct Topic {

@@ -76,13 +76,13 @@ idl::parameters::ParameterReply Client::parameter(idl::parameters::ParameterRequ
 }
 
 idl::plc::PanelReply Client::panel(idl::plc::PanelRequestKind kind) {
-  auto feedback = bus_.reader(topics::feedback_frame);
-  idl::stream::FeedbackFrame frame;
+  auto feedback = bus_.reader(topics::feedback);
+  idl::stream::Feedback batch;
   // A press that the drive holds is accepted, also when the PLC hangs.
   const auto held = [&](const idl::plc::PanelRequest& request) {
     std::optional<idl::plc::PanelReply> reply;
-    while (feedback.take(frame))
-      if (frame.press_client == request.client && frame.press_number == request.number)
+    while (feedback.take(batch))
+      if (batch.press_client == request.client && batch.press_number == request.number)
         reply = {request.client, request.number, true, ""};
     return reply;
   };

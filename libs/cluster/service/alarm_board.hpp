@@ -30,7 +30,7 @@ class AlarmBoard {
   void reset();
   /// The same, but only those for which `concerned(subject, part)` holds.
   void reset(const std::function<bool(machine::Subject, std::uint32_t)>& concerned);
-  /// Alarms are not published until unmute(): what a shadow finds wrong is not the machine's.
+  /// Alarms are not published until unmute(): what a process on standby finds wrong is not the machine's.
   void mute() { muted_ = true; }
   void unmute();
   bool active(const machine::AlarmDefinition& alarm, std::uint32_t part) const;

@@ -77,7 +77,7 @@ Node::Node(Options options)
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
-  if (options_.shadow) {
+  if (options_.standby) {
     alarms_.mute();
     promotions_.emplace(bus_.reader(topics::promotion));
   }
@@ -105,7 +105,7 @@ void Node::take_promotion() {
   while (promotions_ && promotions_->take(promotion))
     promoted = promoted || (promotion.instance == options_.instance && promotion.pid == getpid());
   if (!promoted) return;
-  options_.shadow = false;
+  options_.standby = false;
   promotions_.reset();
   alarms_.unmute();
 }
@@ -113,7 +113,7 @@ void Node::take_promotion() {
 bool Node::stand_by(Service* standby) {
   Health health;
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
-  while (stop_requested == 0 && options_.shadow) {
+  while (stop_requested == 0 && options_.standby) {
     if (standby != nullptr) standby->pump();
     if (monotonic_seconds() - last_beat_ >= beat_period)
       beat(standby != nullptr ? standby->health() : health);
@@ -128,15 +128,15 @@ void Node::beat(const Health& health) {
   const double elapsed = now - last_beat_;
   state_.lifecycle = health.lifecycle;
   state_.detail = text::shortened(health.detail, 128);
-  state_.frames_in = health.frames_in;
-  state_.frames_out = health.frames_out;
-  state_.frames_lost = health.frames_lost;
-  state_.frames_per_second =
-      last_beat_ > 0 ? static_cast<double>(health.frames_out - last_frames_) / elapsed : 0;
+  state_.messages_in = health.messages_in;
+  state_.messages_out = health.messages_out;
+  state_.cycles_lost = health.cycles_lost;
+  state_.messages_per_second =
+      last_beat_ > 0 ? static_cast<double>(health.messages_out - last_messages_) / elapsed : 0;
   state_.revision = health.revision;
   state_.in_step = health.in_step;
   using idl::service::StandbyState;
-  state_.standby = !options_.shadow             ? StandbyState::TAKES_PART
+  state_.standby = !options_.standby            ? StandbyState::TAKES_PART
                    : !health.difference.empty() ? StandbyState::DIFFERING
                    : health.in_step             ? StandbyState::MATCHING
                                                 : StandbyState::JOINING;
@@ -147,7 +147,7 @@ void Node::beat(const Health& health) {
   state_writer_.write(state_);
   if (health.lifecycle == idl::service::Lifecycle::ACTIVE) notifier_.ready();
   last_beat_ = now;
-  last_frames_ = health.frames_out;
+  last_messages_ = health.messages_out;
   bus_.backend().keep_up();
 }
 
@@ -200,7 +200,7 @@ int Node::run(Service& service) {
     take_promotion();
     service.pump();
     report_refusals();
-    if (!options_.shadow) snapshot_desk_.serve(service);
+    if (!options_.standby) snapshot_desk_.serve(service);
     notifier_.alive(monotonic_seconds());
     if (const double now = monotonic_seconds(); now - last_beat_ >= beat_period) {
       beat(service.health());

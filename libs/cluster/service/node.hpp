@@ -25,7 +25,7 @@ inline constexpr std::uint16_t all_channels = 65535;
 struct Health {
   idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   std::string detail;
-  std::uint64_t frames_in = 0, frames_out = 0, frames_lost = 0;
+  std::uint64_t messages_in = 0, messages_out = 0, cycles_lost = 0;
   std::uint64_t revision = 0;
   bool in_step = true;
   /// Of a process on standby: ticks in which it has done the same as the one it is to replace, and what
@@ -74,7 +74,7 @@ class Node {
   const bus::Json* snapshot() const { return snapshot_.get(); }
 
   /// Started beside the service that it is to replace, and not promoted yet.
-  bool on_standby() const { return options_.shadow; }
+  bool on_standby() const { return options_.standby; }
   /// Waits, inactive, until this process is promoted. False when it is told to end instead.
   /// Meanwhile `standby`, if there is one, is pumped and reports the health.
   bool stand_by(Service* standby = nullptr);
@@ -101,7 +101,7 @@ class Node {
   Notifier notifier_;
   double started_ = 0;
   double last_beat_ = 0;
-  std::uint64_t last_frames_ = 0;
+  std::uint64_t last_messages_ = 0;
   std::uint64_t refusals_told_ = 0;               // of all topics
   std::map<std::string, std::uint64_t> told_of_;  // by topic
 };

@@ -26,7 +26,7 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
   app.add_flag("--virtual-time", options.virtual_time,
                "Time advances with the setpoints, not with the clock");
-  app.add_flag("--shadow", options.shadow,
+  app.add_flag("--standby", options.standby,
                "Begin on standby beside the service that this one replaces, until the launcher promotes it");
   app.add_option("--snapshot", options.snapshot,
                  "File with the recorded state that this process continues from, for a verification")

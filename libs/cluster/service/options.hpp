@@ -26,7 +26,7 @@ struct Options {
   bool virtual_time = false;
   bool parent_bound = false;  ///< stop when the launcher is gone
   std::string snapshot;       ///< file with a recorded state to continue from; empty = none
-  bool shadow = false;        ///< begin on standby beside the one that it replaces
+  bool standby = false;       ///< begin on standby beside the one that it replaces
 
   machine::MachineConfig machine;  ///< loaded from machine_directory
 };

@@ -15,19 +15,19 @@ class FeedbackWindow {
  public:
   static constexpr std::size_t rows = 2048;
 
-  void put(const idl::stream::FeedbackFrame& frame) {
-    if (frame.axis_count == 0) return;
-    if (begin_ == none || is_first(frame)) begin_ = frame.first;
-    if (frame.axis_count != axes_) {
-      axes_ = frame.axis_count;
+  void put(const idl::stream::Feedback& feedback) {
+    if (feedback.axis_count == 0) return;
+    if (begin_ == none || is_first(feedback)) begin_ = feedback.first;
+    if (feedback.axis_count != axes_) {
+      axes_ = feedback.axis_count;
       actual_.assign(rows * axes_, 0.0);
       cycle_.assign(rows, none);
     }
-    for (std::uint32_t i = 0; i < frame.count; ++i) {
-      const std::uint64_t cycle = frame.first + i;
-      if ((i + 1) * axes_ > frame.actual.size()) break;
+    for (std::uint32_t i = 0; i < feedback.count; ++i) {
+      const std::uint64_t cycle = feedback.first + i;
+      if ((i + 1) * axes_ > feedback.actual.size()) break;
       cycle_[cycle % rows] = cycle;
-      std::memcpy(&actual_[cycle % rows * axes_], &frame.actual[i * axes_], axes_ * sizeof(double));
+      std::memcpy(&actual_[cycle % rows * axes_], &feedback.actual[i * axes_], axes_ * sizeof(double));
     }
   }
   /// Encoder positions of every axis at `cycle`, or null when that row is not here.
@@ -43,9 +43,9 @@ class FeedbackWindow {
 
  private:
   // What a drive that has just started reports: its parameters and nothing else have been applied.
-  static bool is_first(const idl::stream::FeedbackFrame& frame) {
-    return frame.count == 0 && frame.applied.size() == 1 &&
-           frame.applied[0].input == idl::stream::Input::PARAMETER_SET;
+  static bool is_first(const idl::stream::Feedback& feedback) {
+    return feedback.count == 0 && feedback.applied.size() == 1 &&
+           feedback.applied[0].input == idl::stream::Input::PARAMETER_SET;
   }
 
   static constexpr std::uint64_t none = ~0ull;

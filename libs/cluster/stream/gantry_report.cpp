@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint16_t most_channels = 10;
 
-const char* state_text(const machine::GantryPair& pair, const idl::stream::FeedbackFrame& f) {
+const char* state_text(const machine::GantryPair& pair, const idl::stream::Feedback& f) {
   const auto i = static_cast<std::size_t>(pair.slave_column);
   if (i >= f.enabled.size() || f.enabled[i] == 0) return "drives off";
   if (f.enabled[i] == 3) return "slave taken off";
@@ -24,7 +24,7 @@ const char* state_text(const machine::GantryPair& pair, const idl::stream::Feedb
   return "coupled";
 }
 
-std::vector<double> offsets_of(std::size_t pairs, const idl::stream::FeedbackFrame& feedback,
+std::vector<double> offsets_of(std::size_t pairs, const idl::stream::Feedback& feedback,
                                std::uint16_t channel) {
   std::vector<double> offsets(pairs, 0);
   for (const auto& echo : feedback.channels)
@@ -39,7 +39,7 @@ std::vector<double> offsets_of(std::size_t pairs, const idl::stream::FeedbackFra
 bool GantryReport::proposes() const { return std::abs(offset.proposal - offset.now) >= 1e-4; }
 
 std::vector<GantryReport> gantry_reports(const machine::Parameters& parameters,
-                                         const idl::stream::FeedbackFrame& feedback) {
+                                         const idl::stream::Feedback& feedback) {
   const auto axes = machine::drive_axes(parameters);
   std::vector<GantryReport> reports;
   for (std::uint16_t channel = 0; channel < most_channels; ++channel) {
@@ -65,7 +65,7 @@ std::vector<GantryReport> gantry_reports(const machine::Parameters& parameters,
   return reports;
 }
 
-bool axes_move(const idl::stream::FeedbackFrame& feedback) {
+bool axes_move(const idl::stream::Feedback& feedback) {
   return feedback.mode == idl::stream::DriveMode::HOMING ||
          std::any_of(feedback.channels.begin(), feedback.channels.end(),
                      [](const auto& echo) { return echo.active; });

@@ -25,9 +25,9 @@ struct GantryReport {
 
 /// By channel. Throws std::runtime_error when the drive does not report an axis of a pair.
 std::vector<GantryReport> gantry_reports(const machine::Parameters& parameters,
-                                         const idl::stream::FeedbackFrame& feedback);
+                                         const idl::stream::Feedback& feedback);
 
 /// A channel moves its axes, or they are homed: Auto Offset takes positions at rest.
-bool axes_move(const idl::stream::FeedbackFrame& feedback);
+bool axes_move(const idl::stream::Feedback& feedback);
 
 }  // namespace trunnion::stream

@@ -11,7 +11,7 @@
 namespace trunnion::stream {
 namespace {
 
-constexpr int under_control = 1;  // of FeedbackFrame::enabled, without the bit of a slave that is off
+constexpr int under_control = 1;  // of Feedback::enabled, without the bit of a slave that is off
 
 GantryFinding compare(const machine::AlarmDefinition& alarm, const machine::GantryPair& pair, double value,
                       double limit, std::uint32_t parameter, const char* what, const char* unit) {
@@ -31,7 +31,7 @@ std::vector<double> compensated_offsets(std::size_t pairs, std::span<const doubl
   return offsets;
 }
 
-bool is_coupled(const machine::GantryPair& pair, const idl::stream::FeedbackFrame& feedback) {
+bool is_coupled(const machine::GantryPair& pair, const idl::stream::Feedback& feedback) {
   const auto columns = feedback.position.size();
   for (const int column : {pair.master_column, pair.slave_column}) {
     if (column < 0 || static_cast<std::size_t>(column) >= columns) return false;
@@ -43,7 +43,7 @@ bool is_coupled(const machine::GantryPair& pair, const idl::stream::FeedbackFram
   return feedback.mode != idl::stream::DriveMode::HOMING;
 }
 
-GantryDifference gantry_difference(const machine::GantryPair& pair, const idl::stream::FeedbackFrame& f,
+GantryDifference gantry_difference(const machine::GantryPair& pair, const idl::stream::Feedback& f,
                                    double offset) {
   const auto m = static_cast<std::size_t>(pair.master_column),
              s = static_cast<std::size_t>(pair.slave_column);

@@ -26,11 +26,11 @@ struct GantryDifference {
 };
 
 /// False in an emergency stop and while the slave is taken off: then nothing is compared.
-bool is_coupled(const machine::GantryPair& pair, const idl::stream::FeedbackFrame& feedback);
+bool is_coupled(const machine::GantryPair& pair, const idl::stream::Feedback& feedback);
 
 /// `offset` mm: what the compensation of both axes accounts for. The feedback must have the pair's columns.
-GantryDifference gantry_difference(const machine::GantryPair& pair,
-                                   const idl::stream::FeedbackFrame& feedback, double offset);
+GantryDifference gantry_difference(const machine::GantryPair& pair, const idl::stream::Feedback& feedback,
+                                   double offset);
 
 struct GantryFinding {
   const machine::AlarmDefinition* alarm = nullptr;

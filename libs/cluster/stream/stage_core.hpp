@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a stage of the stream is, without DDS: a deterministic function of its frames, its parameters and its
+// What a stage of the stream is, without DDS: a deterministic function of its batches, its parameters and its
 // state.
 #pragma once
 
@@ -23,11 +23,11 @@ template <class In>
 class StageCore {
  public:
   virtual ~StageCore() = default;
-  /// New parameters; called between frames only. Throws std::runtime_error when they make no sense.
+  /// New parameters; called between batches only. Throws std::runtime_error when they make no sense.
   virtual void configure(const machine::Parameters& parameters, std::uint16_t channel) = 0;
   /// Fills axes and setpoints of `out` from `in`; everything else is copied by the caller. False: feedback it
   /// needs is not here yet (nothing was changed).
-  virtual bool process(const In& in, const FeedbackWindow& feedback, idl::stream::AxisFrame& out) = 0;
+  virtual bool process(const In& in, const FeedbackWindow& feedback, idl::stream::AxisBatch& out) = 0;
   virtual void load(std::span<const double> state) = 0;
   virtual void save(StateValues& state) const = 0;
 };

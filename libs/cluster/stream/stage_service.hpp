@@ -15,8 +15,8 @@
 #include "machine/stream_settings.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
-#include "stream/frame_reader.hpp"
-#include "stream/frame_window.hpp"
+#include "stream/batch_reader.hpp"
+#include "stream/batch_window.hpp"
 #include "stream/stage_core.hpp"
 
 namespace trunnion::stream {
@@ -47,7 +47,7 @@ class StageService : public service::Service {
   using MakeCore = std::function<std::unique_ptr<StageCore<In>>()>;
 
   StageService(service::Node& node, Stage stage, const bus::Topic<In>& in,
-               const bus::Topic<idl::stream::AxisFrame>& out, MakeCore make_core)
+               const bus::Topic<idl::stream::AxisBatch>& out, MakeCore make_core)
       : node_(node),
         parameters_(node.bus()),
         stage_(stage),
@@ -67,7 +67,7 @@ class StageService : public service::Service {
     }
     if (standby_ && !node_.on_standby()) take_part();
     follow_feedback();
-    idl::stream::FeedbackFrame feedback;
+    idl::stream::Feedback feedback;
     while (feedback_reader_ && feedback_reader_->take(feedback)) {
       feedback_.put(feedback);
       std::swap(newest_feedback_, feedback);
@@ -75,17 +75,17 @@ class StageService : public service::Service {
       on_feedback(newest_feedback_);
     }
     return_to_the_drive();
-    while (reader_->take(frame_)) {
-      ++frames_in_;
-      const auto channel = frame_.channel;
+    while (reader_->take(batch_)) {
+      ++messages_in_;
+      const auto channel = batch_.channel;
       if (channel >= node_.options().machine.channels) {
         reader_->refuse("channel: " + std::to_string(channel) + ", the machine has " +
                         std::to_string(node_.options().machine.channels));
         continue;
       }
       auto& window = lane(channel).window;
-      if (window.put(frame_) == Arrival::differs)
-        raise_difference(node_.alarms(), *window.first_arrival(frame_), frame_);
+      if (window.put(batch_) == Arrival::differs)
+        raise_difference(node_.alarms(), *window.first_arrival(batch_), batch_);
     }
     for (auto& [channel, lane] : lanes_) {
       run(channel, lane);
@@ -97,10 +97,10 @@ class StageService : public service::Service {
     return parameters_.newest() && machine::axis_moves_with(*parameters_.newest(), axis, channel);
   }
 
-  // Frames that no channel wrote may have led it to where the stream never comes.
+  // Batches that no channel wrote may have led it to where the stream never comes.
   void alarms_reset(std::uint16_t) override {
     if (!reader_) return;
-    present_reader_.emplace(present_reader(node_.bus(), topics::feedback_frame));
+    present_reader_.emplace(present_reader(node_.bus(), topics::feedback));
     present_until_ = service::monotonic_seconds() + 2;
   }
 
@@ -115,9 +115,9 @@ class StageService : public service::Service {
                     : !have_feedback_ ? "waiting for the drive"
                                       : waiting_for();
     if (!fault_.empty()) health.lifecycle = Lifecycle::FAULT;
-    health.frames_in = frames_in_;
-    health.frames_out = frames_out_;
-    health.frames_lost = frames_lost_;
+    health.messages_in = messages_in_;
+    health.messages_out = messages_out_;
+    health.cycles_lost = cycles_lost_;
     health.revision = parameters_.newest() ? parameters_.newest()->revision : 0;
     if (node_.on_standby()) health.in_step = reader_ && have_feedback_ && fault_.empty();
     for (const auto& [channel, lane] : lanes_)
@@ -129,20 +129,20 @@ class StageService : public service::Service {
   /// True when the computation itself needs the feedback. Other stages read it only until they are in step.
   virtual bool needs_feedback() const { return false; }
   /// For supervision that does not belong to a setpoint.
-  virtual void on_feedback(const idl::stream::FeedbackFrame&) {}
+  virtual void on_feedback(const idl::stream::Feedback&) {}
   service::Node& node_;
   service::ParameterClient parameters_;
 
  private:
   struct Lane {
-    FrameWindow<In> window;
+    BatchWindow<In> window;
     std::unique_ptr<StageCore<In>> core;
     std::uint64_t revision = 0;
     std::optional<StateValues> cut;  // to continue from; a core cannot load it before it is configured
     bool in_step = false;
     bool settled = false;  // since it is in step it has computed all input, and its output has a reader
     double gap_since = 0;
-    bool at_rest = false;  // the newest frame it computed was the last of a motion
+    bool at_rest = false;  // the newest batch it computed was the last of a motion
     bool reported_at_rest = false;
     idl::stream::StageProgress reported;
     double reported_at = 0;
@@ -161,13 +161,13 @@ class StageService : public service::Service {
     auto out = out_topic_;
     if (standby_) out.name = standby_topic.c_str();
     writer_.emplace(node_.bus().writer(out));
-    feedback_reader_.emplace(node_.bus(), topics::feedback_frame);
+    feedback_reader_.emplace(node_.bus(), topics::feedback);
     reader_.emplace(node_.bus(), in_topic_);
     for (const auto& entry : services)
       if (entry.service == "channel") lane(static_cast<std::uint16_t>(entry.channel));
   }
 
-  // From the frame it computes next on; what it wrote on standby the others have from the service it
+  // From the batch it computes next on; what it wrote on standby the others have from the service it
   // replaces.
   void take_part() {
     standby_ = false;
@@ -211,14 +211,14 @@ class StageService : public service::Service {
     progress_writer_.write(progress);
   }
 
-  // Every reader of the feedback costs the drive a message and this process a wake-up per frame.
+  // Every reader of the feedback costs the drive a message and this process a wake-up per batch.
   void follow_feedback() {
     bool wanted = needs_feedback() || !have_feedback_ || service::monotonic_seconds() < feedback_until_;
     for (const auto& [channel, lane] : lanes_)
       wanted = wanted || !lane.in_step || (lane.revision == 0 && lane.window.has_next());
     if (wanted && !feedback_reader_) {
       newest_feedback_.channels.clear();
-      feedback_reader_.emplace(node_.bus(), topics::feedback_frame);
+      feedback_reader_.emplace(node_.bus(), topics::feedback);
     } else if (!wanted && feedback_reader_) {
       feedback_reader_.reset();
     }
@@ -230,7 +230,7 @@ class StageService : public service::Service {
     return result;
   }
 
-  static const idl::stream::ChannelEcho* echo_of(const idl::stream::FeedbackFrame& feedback,
+  static const idl::stream::ChannelEcho* echo_of(const idl::stream::Feedback& feedback,
                                                  std::uint16_t channel) {
     for (const auto& echo : feedback.channels)
       if (echo.channel == channel) return &echo;
@@ -261,7 +261,7 @@ class StageService : public service::Service {
   void join(std::uint16_t channel, Lane& lane) {
     const auto* cut = echo_of(newest_feedback_, channel);
     if (cut == nullptr) return;
-    if (!cut->active) {  // nothing moves: the first frame of the next motion will carry the state
+    if (!cut->active) {  // nothing moves: the first batch of the next motion will carry the state
       lane.window.set_next(cut->epoch, cut->next);
       lane.in_step = true;
       return;
@@ -349,7 +349,7 @@ class StageService : public service::Service {
       own.cycle = in->first + in->count - 1;
       lane.core->save(own.values);
       writer_->write(out_);
-      ++frames_out_;
+      ++messages_out_;
       lane.at_rest = in->ends;
       lane.window.advance();
       lane.gap_since = 0;
@@ -361,7 +361,7 @@ class StageService : public service::Service {
       const double now = service::monotonic_seconds();
       if (lane.gap_since == 0) lane.gap_since = now;
       if (now - lane.gap_since > 0.02) {
-        ++frames_lost_;
+        ++cycles_lost_;
         lane.in_step = lane.settled = false;
         feedback_until_ = now + 2;  // it may fall behind again, and a new reader receives the whole history
         lane.gap_since = 0;
@@ -371,20 +371,20 @@ class StageService : public service::Service {
 
   Stage stage_;
   bus::Topic<In> in_topic_;
-  bus::Topic<idl::stream::AxisFrame> out_topic_;
+  bus::Topic<idl::stream::AxisBatch> out_topic_;
   MakeCore make_core_;
-  std::optional<FrameReader<In>> reader_;
-  std::optional<FrameReader<idl::stream::FeedbackFrame>> feedback_reader_;
-  std::optional<FrameReader<idl::stream::FeedbackFrame>> present_reader_;  // for a while after a reset
-  std::optional<bus::Writer<idl::stream::AxisFrame>> writer_;
+  std::optional<BatchReader<In>> reader_;
+  std::optional<BatchReader<idl::stream::Feedback>> feedback_reader_;
+  std::optional<BatchReader<idl::stream::Feedback>> present_reader_;  // for a while after a reset
+  std::optional<bus::Writer<idl::stream::AxisBatch>> writer_;
   bus::Writer<idl::stream::StageProgress> progress_writer_;
   std::map<std::uint16_t, Lane> lanes_;
   FeedbackWindow feedback_;
-  In frame_;
-  idl::stream::AxisFrame out_;
-  idl::stream::FeedbackFrame newest_feedback_, present_;
+  In batch_;
+  idl::stream::AxisBatch out_;
+  idl::stream::Feedback newest_feedback_, present_;
   bool have_feedback_ = false;
-  std::uint64_t frames_in_ = 0, frames_out_ = 0, frames_lost_ = 0;
+  std::uint64_t messages_in_ = 0, messages_out_ = 0, cycles_lost_ = 0;
   double unknown_since_ = 0, feedback_until_ = 0, present_until_ = 0;
   std::uint64_t ahead_ = 0;
   bool replicated_ = false, standby_ = false;

@@ -13,7 +13,7 @@ StreamSettings::StreamSettings(const Parameters& p, bool virtual_time) {
   lead = cycles(parameter::stream_lead);
   ahead = virtual_time ? std::max(lead, cycles(parameter::virtual_time_lead)) : lead;
   const auto size =
-      cycles(virtual_time ? parameter::frame_cycles_virtual_time : parameter::frame_cycles_real_time);
+      cycles(virtual_time ? parameter::batch_cycles_virtual_time : parameter::batch_cycles_real_time);
   const auto fitting = [&](std::uint64_t distance) {
     return static_cast<std::uint32_t>(std::min(size, std::max<std::uint64_t>(1, distance / 2)));
   };

@@ -13,7 +13,7 @@
 #include "language/line_reader.hpp"
 #include "language/macro_call.hpp"
 #include "language/modal_calls.hpp"
-#include "language/structure.hpp"
+#include "language/open_structures.hpp"
 
 namespace trunnion::language {
 

@@ -14,16 +14,16 @@ struct CycleRange {
 };
 
 /// The cycles of one channel, epoch and stage, in whatever order and however often they come: replicas of a
-/// stage write each frame twice.
+/// stage write each batch twice.
 class CycleCoverage {
  public:
-  /// A frame of `count` cycles from `first` on. `starts` and `ends` as in the frames: between a frame that
+  /// A batch of `count` cycles from `first` on. `starts` and `ends` as in the batches: between a batch that
   /// ends and one that starts nothing is missing.
   void add(std::uint64_t first, std::uint64_t count, bool starts, bool ends);
 
-  /// Cycles that some frame covers.
+  /// Cycles that some batch covers.
   std::uint64_t covered() const;
-  /// Cycles between the first and the last that no frame covers although the channel was not idle.
+  /// Cycles between the first and the last that no batch covers although the channel was not idle.
   std::uint64_t lost() const;
   /// The same as ranges, ascending, at most `most` of them.
   std::vector<CycleRange> gaps(std::size_t most) const;
@@ -32,9 +32,9 @@ class CycleCoverage {
   std::uint64_t end() const { return runs_.empty() ? 0 : runs_.rbegin()->second.end; }
   /// The first batch states that nothing was before it.
   bool begins_at_a_start() const { return runs_.empty() || runs_.begin()->second.starts; }
-  /// Frames that brought nothing new.
+  /// Batches that brought nothing new.
   std::uint64_t repeated() const { return repeated_; }
-  /// Frames that came after a later one, and were still news.
+  /// Batches that came after a later one, and were still news.
   std::uint64_t late() const { return late_; }
 
  private:

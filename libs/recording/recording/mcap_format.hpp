@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "bus/former_names.hpp"
 #include "recording/byte_stream.hpp"
 
 namespace trunnion::recording {
@@ -151,9 +152,9 @@ class RecordReader {
 inline Schema read_schema(RecordReader& in) {
   Schema schema;
   schema.id = in.number<std::uint16_t>();
-  schema.name = in.text();
+  schema.name = bus::with_names_of_today(in.text());
   schema.encoding = in.text();
-  schema.data = in.text();
+  schema.data = bus::with_names_of_today(in.text());
   return schema;
 }
 
@@ -161,9 +162,11 @@ inline Channel read_channel(RecordReader& in) {
   Channel channel;
   channel.id = in.number<std::uint16_t>();
   channel.schema = in.number<std::uint16_t>();
-  channel.topic = in.text();
+  channel.topic = bus::with_names_of_today(in.text());
   channel.encoding = in.text();
   channel.metadata = in.map();
+  if (const auto handle = channel.metadata.find("handle"); handle != channel.metadata.end())
+    handle->second = bus::with_names_of_today(handle->second);
   return channel;
 }
 

@@ -7,29 +7,29 @@
 namespace trunnion::recording {
 
 const std::vector<std::string>& StreamTally::cyclic() {
-  static const std::vector<std::string> handles = {"path_frame", "kinematics_frame", "compensation_frame",
-                                                   "gantry_frame", "feedback_frame"};
+  static const std::vector<std::string> handles = {"path_batch", "kinematics_batch", "compensation_batch",
+                                                   "gantry_batch", "feedback"};
   return handles;
 }
 
-template <class Frame>
-void StreamTally::add_frame(const std::string& handle, std::span<const std::uint8_t> cdr, Frame& frame) {
-  if (!bus::decode(cdr, frame)) return;
-  coverage_[Key{handle, frame.channel, frame.epoch}].add(frame.first, frame.count, frame.starts, frame.ends);
+template <class Batch>
+void StreamTally::add_batch(const std::string& handle, std::span<const std::uint8_t> cdr, Batch& batch) {
+  if (!bus::decode(cdr, batch)) return;
+  coverage_[Key{handle, batch.channel, batch.epoch}].add(batch.first, batch.count, batch.starts, batch.ends);
 }
 
 void StreamTally::add(const std::string& handle, std::span<const std::uint8_t> cdr) {
   ++messages_;
   ++by_topic_[handle];
-  if (handle == "path_frame") {
-    thread_local idl::stream::PathFrame frame;
-    add_frame(handle, cdr, frame);
-  } else if (handle == "kinematics_frame" || handle == "compensation_frame" || handle == "gantry_frame") {
-    thread_local idl::stream::AxisFrame frame;
-    add_frame(handle, cdr, frame);
-  } else if (handle == "feedback_frame") {
-    thread_local idl::stream::FeedbackFrame frame;
-    if (bus::decode(cdr, frame)) coverage_[Key{handle, 0, 0}].add(frame.first, frame.count, false, false);
+  if (handle == "path_batch") {
+    thread_local idl::stream::PathBatch batch;
+    add_batch(handle, cdr, batch);
+  } else if (handle == "kinematics_batch" || handle == "compensation_batch" || handle == "gantry_batch") {
+    thread_local idl::stream::AxisBatch batch;
+    add_batch(handle, cdr, batch);
+  } else if (handle == "feedback") {
+    thread_local idl::stream::Feedback batch;
+    if (bus::decode(cdr, batch)) coverage_[Key{handle, 0, 0}].add(batch.first, batch.count, false, false);
   }
 }
 

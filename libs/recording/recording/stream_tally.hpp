@@ -19,8 +19,8 @@ class StreamTally {
 
   std::uint64_t messages() const { return messages_; }
   const std::map<std::string, std::uint64_t>& messages_by_topic() const { return by_topic_; }
-  /// Cycles missing between the frames of a topic, over all channels and epochs; every replica fills the gaps
-  /// of the other.
+  /// Cycles missing between the batches of a topic, over all channels and epochs; every replica fills the
+  /// gaps of the other.
   std::uint64_t lost(const std::string& handle) const;
   std::uint64_t cycles(const std::string& handle) const;
   /// The topics whose messages carry cycles.
@@ -31,8 +31,8 @@ class StreamTally {
   const std::map<Key, CycleCoverage>& streams() const { return coverage_; }
 
  private:
-  template <class Frame>
-  void add_frame(const std::string& handle, std::span<const std::uint8_t> cdr, Frame& frame);
+  template <class Batch>
+  void add_batch(const std::string& handle, std::span<const std::uint8_t> cdr, Batch& batch);
 
   std::uint64_t messages_ = 0;
   std::map<std::string, std::uint64_t> by_topic_;

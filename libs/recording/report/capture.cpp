@@ -26,11 +26,11 @@ class Collector {
     ++out_.messages;
     const auto time = static_cast<std::int64_t>(message.log_time);
     bool ok = true;
-    if (topic == topics::path_frame.name)
+    if (topic == topics::path_batch.name)
       ok = bus::decode(message.data, path_), ok && on_path(time);
     else if (const auto stage = axis_stages_.find(topic); stage != axis_stages_.end())
       ok = bus::decode(message.data, axes_) && on_axes(stage->second, time);
-    else if (topic == topics::feedback_frame.name)
+    else if (topic == topics::feedback.name)
       ok = bus::decode(message.data, feedback_), ok && on_feedback(time);
     else if (topic == topics::parameter_set.name)
       ok = bus::decode(message.data, parameters_), ok && on_parameters();
@@ -44,9 +44,9 @@ class Collector {
   void finish() {
     for (const auto& [key, coverage] : coverage_) {
       out_.lost[key.first] += coverage.lost();
-      out_.late_frames += coverage.late();
-      out_.repeated_frames += coverage.repeated();
-      if (key.first == "path_frame" && !coverage.begins_at_a_start() && out_.problem.empty())
+      out_.late_batches += coverage.late();
+      out_.repeated_batches += coverage.repeated();
+      if (key.first == "path_batch" && !coverage.begins_at_a_start() && out_.problem.empty())
         out_.problem = "the recording starts after the start of the motion";
     }
     // Of a cycle that was written again in a later epoch the first was void.
@@ -69,9 +69,9 @@ class Collector {
 
   bool on_path(std::int64_t time) {
     if (path_.channel != channel_) return true;
-    coverage("path_frame", path_.epoch).add(path_.first, path_.count, path_.starts, path_.ends);
+    coverage("path_batch", path_.epoch).add(path_.first, path_.count, path_.starts, path_.ends);
     const std::size_t rows = std::min<std::size_t>(path_.count, path_.setpoints.size() / path_width);
-    auto& times = out_.frames[{path_.epoch, path_.first}];
+    auto& times = out_.batches[{path_.epoch, path_.first}];
     const bool news = times.written[0] == 0;
     stamp(times, 0, time, path_.first + path_.count - 1);
     times.starts = path_.starts;
@@ -90,10 +90,10 @@ class Collector {
     if (axes_.channel != channel_ || axes_.axes.empty()) return true;
     const std::size_t stage = definition->stage - 1u;
     coverage(definition->output, axes_.epoch).add(axes_.first, axes_.count, axes_.starts, axes_.ends);
-    auto& times = out_.frames[{axes_.epoch, axes_.first}];
+    auto& times = out_.batches[{axes_.epoch, axes_.first}];
     const bool news = times.written[stage] == 0;
     stamp(times, stage, time, axes_.first + axes_.count - 1);
-    if (stage + 1 != frame_stages.size() || !news) return true;
+    if (stage + 1 != batch_stages.size() || !news) return true;
     if (out_.gantry_axes.empty()) out_.gantry_axes = axes_.axes;
     if (out_.gantry_axes != axes_.axes) return true;
     const std::size_t rows = std::min<std::size_t>(axes_.count, axes_.setpoints.size() / axes_.axes.size());
@@ -105,7 +105,7 @@ class Collector {
     if (!first_starved_) first_starved_ = feedback_.starved;
     last_starved_ = feedback_.starved;
     if (feedback_.count == 0 || feedback_.axis_count == 0) return true;
-    coverage("feedback_frame", 0).add(feedback_.first, feedback_.count, false, false);
+    coverage("feedback", 0).add(feedback_.first, feedback_.count, false, false);
     out_.feedback.push_back({feedback_.first, feedback_.count, feedback_.tick, time});
     const std::size_t width = feedback_.axis_count;
     const std::size_t rows = std::min({static_cast<std::size_t>(feedback_.count),
@@ -120,7 +120,7 @@ class Collector {
     return out_.has_parameters = true;
   }
 
-  static void stamp(FrameTimes& times, std::size_t stage, std::int64_t time, std::uint64_t last) {
+  static void stamp(BatchTimes& times, std::size_t stage, std::int64_t time, std::uint64_t last) {
     times.last_cycle = last;
     // Of two replicas the next stage used the first to arrive.
     auto& written = times.written[stage];
@@ -166,9 +166,9 @@ class Collector {
   std::map<std::pair<std::string, std::uint32_t>, recording::CycleCoverage> coverage_;
   std::optional<std::uint64_t> first_starved_;
   std::uint64_t last_starved_ = 0;
-  idl::stream::PathFrame path_;
-  idl::stream::AxisFrame axes_;
-  idl::stream::FeedbackFrame feedback_;
+  idl::stream::PathBatch path_;
+  idl::stream::AxisBatch axes_;
+  idl::stream::Feedback feedback_;
   idl::parameters::ParameterSet parameters_;
 };
 

@@ -16,8 +16,8 @@
 
 namespace trunnion::report {
 
-/// The stages whose frames are timed, in the order of the stream.
-inline constexpr auto frame_stages = [] {
+/// The stages whose batches are timed, in the order of the stream.
+inline constexpr auto batch_stages = [] {
   std::array<const char*, std::size(machine::service::stages)> names{};
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = machine::service::stages[i].name;
   return names;
@@ -29,7 +29,7 @@ struct PathRow {
   std::uint32_t line = 0;
   bool rtcp = false;
   double tool_length = 0;           ///< mm
-  language::AxisValues position{};  ///< as in PathFrame
+  language::AxisValues position{};  ///< as in PathBatch
 };
 
 /// Rows of a fixed width, each with its cycle.
@@ -41,11 +41,11 @@ struct RowTable {
   const double* row(std::size_t i) const { return &values[i * width]; }
 };
 
-/// First arrival of the frame that begins at a cycle, by stage; ns since the epoch, 0 = not there.
-struct FrameTimes {
+/// First arrival of the batch that begins at a cycle, by stage; ns since the epoch, 0 = not there.
+struct BatchTimes {
   std::uint64_t last_cycle = 0;
   bool starts = false;  ///< the first of a motion
-  std::array<std::int64_t, frame_stages.size()> written{};
+  std::array<std::int64_t, batch_stages.size()> written{};
 };
 
 struct FeedbackTime {
@@ -60,11 +60,11 @@ struct Capture {
   RowTable gantry;                         ///< columns: axes of the channel; ascending cycles
   std::vector<std::uint16_t> gantry_axes;  ///< logical axis numbers of its columns
   RowTable commanded, actual;              ///< columns: the drive's axes; ascending cycles
-  std::map<std::pair<std::uint32_t, std::uint64_t>, FrameTimes> frames;  ///< by epoch and first cycle
+  std::map<std::pair<std::uint32_t, std::uint64_t>, BatchTimes> batches;  ///< by epoch and first cycle
   std::vector<FeedbackTime> feedback;
-  std::map<std::string, std::uint64_t> lost;  ///< cycles missing between frames, by topic handle
-  std::uint64_t late_frames = 0;              ///< that came after a later one, and were still news
-  std::uint64_t repeated_frames = 0;          ///< without new cycles: those of the second replica
+  std::map<std::string, std::uint64_t> lost;  ///< cycles missing between batches, by topic handle
+  std::uint64_t late_batches = 0;             ///< that came after a later one, and were still news
+  std::uint64_t repeated_batches = 0;         ///< without new cycles: those of the second replica
   std::uint64_t messages = 0;
   std::map<std::string, std::string> metadata;
   std::uint64_t starved = 0;  ///< periods during the recording

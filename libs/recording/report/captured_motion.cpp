@@ -52,7 +52,7 @@ servo_analysis::ChannelMotion motion_of_recording(const std::string& file, std::
   if (!capture.has_parameters) throw std::runtime_error(file + ": no parameters: " + capture.problem);
   if (capture.path.empty() || capture.actual.width == 0)
     throw std::runtime_error(file + ": no motion of channel " + std::to_string(channel) +
-                             ": record the topics path_frame and feedback_frame");
+                             ": record the topics path_batch and feedback");
   parameters = capture.tables.parameters;
   return motion_of(capture, channel);
 }

@@ -253,20 +253,20 @@ class Evaluation {
 
   void measure_time() {
     std::vector<double> seconds;
-    for (std::size_t stage = 0; stage + 1 < frame_stages.size(); ++stage) {
+    for (std::size_t stage = 0; stage + 1 < batch_stages.size(); ++stage) {
       seconds.clear();
-      for (const auto& [key, times] : capture_.frames)
+      for (const auto& [key, times] : capture_.batches)
         if (times.written[stage] != 0 && times.written[stage + 1] != 0)
           seconds.push_back(1e-9 * static_cast<double>(times.written[stage + 1] - times.written[stage]));
-      report_.latencies.push_back(latency(frame_stages[stage], frame_stages[stage + 1], seconds));
+      report_.latencies.push_back(latency(batch_stages[stage], batch_stages[stage + 1], seconds));
     }
-    // The drive's feedback with the last cycle of a frame; in real time this is mostly the lead.
+    // The drive's feedback with the last cycle of a batch; in real time this is mostly the lead.
     std::vector<const FeedbackTime*> feedback;
     for (const auto& f : capture_.feedback) feedback.push_back(&f);
     std::stable_sort(feedback.begin(), feedback.end(),
                      [](const auto* a, const auto* b) { return a->first < b->first; });
     seconds.clear();
-    for (const auto& [key, times] : capture_.frames) {
+    for (const auto& [key, times] : capture_.batches) {
       auto at = std::upper_bound(feedback.begin(), feedback.end(), times.last_cycle,
                                  [](std::uint64_t cycle, const auto* f) { return cycle < f->first; });
       if (at == feedback.begin() || times.written.back() == 0) continue;
@@ -274,7 +274,7 @@ class Evaluation {
       if ((*at)->first + (*at)->count > times.last_cycle)
         seconds.push_back(1e-9 * static_cast<double>((*at)->written - times.written.back()));
     }
-    report_.latencies.push_back(latency(frame_stages.back(), "drive feedback", seconds));
+    report_.latencies.push_back(latency(batch_stages.back(), "drive feedback", seconds));
 
     if (capture_.path.empty()) return;
     const auto first_cycle = capture_.path.front().cycle, last_cycle = capture_.path.back().cycle;
@@ -330,8 +330,8 @@ Report make_report(const std::string& recording, const ReportInputs& inputs) {
   report.messages = capture.messages;
   report.problem = capture.problem;
   report.lost = capture.lost;
-  report.late_frames = capture.late_frames;
-  report.repeated_frames = capture.repeated_frames;
+  report.late_batches = capture.late_batches;
+  report.repeated_batches = capture.repeated_batches;
   report.starved = capture.starved;
   report.period = capture.tables.parameters.get(parameter::interpolation_cycle) * 1e-6;
   Evaluation evaluation(capture, inputs.true_tip, report);

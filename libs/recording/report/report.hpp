@@ -41,7 +41,7 @@ struct ContourError {
 
 struct Latency {
   std::string from, to;
-  std::uint64_t frames = 0;
+  std::uint64_t batches = 0;
   double median = 0, p99 = 0, largest = 0;  ///< s
 };
 
@@ -81,7 +81,7 @@ struct Report {
   double mean_feed = 0, largest_feed = 0;         ///< mm/min commanded on the lines at feed
 
   std::map<std::string, std::uint64_t> lost;  ///< cycles missing, by topic handle
-  std::uint64_t late_frames = 0, repeated_frames = 0, starved = 0;
+  std::uint64_t late_batches = 0, repeated_batches = 0, starved = 0;
   std::vector<Latency> latencies;
   /// FNV-1a (64 bit) of the drive's commands: for every cycle of the motion the doubles of every axis as they
   /// are in memory. Two runs with the same hash moved the machine the same, bit for bit.

@@ -73,16 +73,16 @@ std::string terminal_text(const Report& report) {
   const bool compensated = report.residual_largest > 1e-6;
   text += row(compensated ? "Compensation of the tip" : "Forward(inverse) kinematics",
               report.residual_cycles == 0
-                  ? "no axis frames"
+                  ? "no axis batches"
                   : "max " + length(report.residual_largest) + ", RMS " + length(report.residual_rms));
   if (report.speed > 0)
     text += row("Speed", fmt::format("{:.2f} x real time ({:.3f} s of wall clock)", report.speed,
                                      report.wall_seconds));
   text += row("Cycles lost", fmt::format("{} (batches late: {}, from replicas: {})", lost_in_all(report),
-                                         report.late_frames, report.repeated_frames));
+                                         report.late_batches, report.repeated_batches));
   text += row("Drive starved", fmt::format("{} periods", report.starved));
   for (const auto& latency : report.latencies) {
-    if (latency.frames == 0) continue;
+    if (latency.batches == 0) continue;
     text += row("Latency to " + latency.to, "median " + seconds(latency.median) + ", p99 " +
                                                 seconds(latency.p99) + ", max " + seconds(latency.largest));
   }
@@ -117,8 +117,8 @@ std::string json_text(const Report& report) {
         {"rms_mm", report.residual_rms}}},
       {"feed", {{"mean_mm_min", report.mean_feed}, {"max_mm_min", report.largest_feed}}},
       {"lost_cycles", report.lost},
-      {"late_frames", report.late_frames},
-      {"repeated_frames", report.repeated_frames},
+      {"late_batches", report.late_batches},
+      {"repeated_batches", report.repeated_batches},
       {"starved_periods", report.starved},
       {"command_hash_fnv1a64", hash_text(report)}};
   if (report.true_feed.cycles + report.true_rapid.cycles > 0) {
@@ -129,7 +129,7 @@ std::string json_text(const Report& report) {
   for (const auto& latency : report.latencies)
     latencies.push_back({{"from", latency.from},
                          {"to", latency.to},
-                         {"frames", latency.frames},
+                         {"batches", latency.batches},
                          {"median_s", latency.median},
                          {"p99_s", latency.p99},
                          {"max_s", latency.largest}});

@@ -47,7 +47,7 @@ std::vector<std::uint64_t> Delays::histogram(const std::vector<double>& upper) c
 }
 
 StreamTiming::StreamTiming(std::uint64_t lead, double period) : lead_(lead), period_(period) {
-  for (const char* stage : frame_stages) processes_.emplace_back(stage);
+  for (const char* stage : batch_stages) processes_.emplace_back(stage);
   processes_.emplace_back("drive");
   processes_.emplace_back("whole stream");
 }
@@ -62,7 +62,7 @@ void StreamTiming::add(const Capture& capture) {
 // The feedback is published at the end of a period; it is late by what the periods since the one before took
 // longer than they should.
 void StreamTiming::add_drive(const Capture& capture) {
-  auto& drive = processes_[frame_stages.size()];
+  auto& drive = processes_[batch_stages.size()];
   const FeedbackTime* before = nullptr;
   for (const auto& f : capture.feedback) {
     cycles_ += f.count;
@@ -78,13 +78,13 @@ void StreamTiming::add_stream(const Capture& capture) {
   std::uint64_t start = 0, next = 0;
   std::uint32_t epoch = 0;
   auto credit = capture.feedback.begin();
-  for (const auto& [key, times] : capture.frames) {
-    const auto [frame_epoch, first] = key;
-    if (frame_epoch != epoch || first != next) start = first, epoch = frame_epoch;
+  for (const auto& [key, times] : capture.batches) {
+    const auto [batch_epoch, first] = key;
+    if (batch_epoch != epoch || first != next) start = first, epoch = batch_epoch;
     if (times.starts) start = first;
     next = times.last_cycle + 1;
     if (std::find(times.written.begin(), times.written.end(), 0) != times.written.end()) continue;
-    for (std::size_t stage = 1; stage < frame_stages.size(); ++stage)
+    for (std::size_t stage = 1; stage < batch_stages.size(); ++stage)
       processes_[stage].add(seconds_between(times.written[stage - 1], times.written[stage]));
     // The feedback that allowed the channel to write this batch.
     if (next < start + 2 * lead_) continue;

@@ -63,8 +63,8 @@ class Runs {
       if (reply_.accepted) accepted_.insert({reply_.client, reply_.number});
     } else if (handle == "channel_state" && bus::decode(message.cdr, state_)) {
       if (state_.channel == channel_) states_[message.time] = {state_.state, state_.cycle};
-    } else if (handle == "path_frame" && bus::decode(message.cdr, frame_)) {
-      if (frame_.channel == channel_ && frame_.starts) starts_.emplace_back(message.time, frame_.first);
+    } else if (handle == "path_batch" && bus::decode(message.cdr, batch_)) {
+      if (batch_.channel == channel_ && batch_.starts) starts_.emplace_back(message.time, batch_.first);
     }
   }
 
@@ -94,7 +94,7 @@ class Runs {
   idl::channel::ChannelRequest request_;
   idl::channel::ChannelReply reply_;
   idl::channel::ChannelState state_;
-  idl::stream::PathFrame frame_;
+  idl::stream::PathBatch batch_;
 };
 
 class Shift {
@@ -104,9 +104,9 @@ class Shift {
   /// False when the message is not of the run.
   bool apply(StoredMessage& message) {
     const auto& type = message.topic->type;
-    if (type == bus::Fields<idl::stream::PathFrame>::name) return frame(message, path_);
-    if (type == bus::Fields<idl::stream::AxisFrame>::name) return frame(message, axis_);
-    if (type == bus::Fields<idl::stream::FeedbackFrame>::name) return feedback(message);
+    if (type == bus::Fields<idl::stream::PathBatch>::name) return batch(message, path_);
+    if (type == bus::Fields<idl::stream::AxisBatch>::name) return batch(message, axis_);
+    if (type == bus::Fields<idl::stream::Feedback>::name) return feedback(message);
     if (message.topic->handle == "auxiliary_request") return request(message);
     return message.topic->handle == "auxiliary_done" && done(message);
   }
@@ -116,8 +116,8 @@ class Shift {
     snapshot.cycle -= std::min(snapshot.cycle, window_.begin);
     snapshot.program_revision = 0;
   }
-  template <class Frame>
-  bool frame(StoredMessage& message, Frame& value) const {
+  template <class Batch>
+  bool batch(StoredMessage& message, Batch& value) const {
     if (!bus::decode(message.cdr, value) || !window_.has(value.first, value.count)) return false;
     value.first -= window_.begin;
     value.revision = 0;
@@ -167,9 +167,9 @@ class Shift {
   Window window_;
   std::map<std::uint16_t, std::uint32_t> first_function_;
   std::set<std::pair<std::uint16_t, std::uint32_t>> functions_;
-  idl::stream::PathFrame path_;
-  idl::stream::AxisFrame axis_;
-  idl::stream::FeedbackFrame feedback_;
+  idl::stream::PathBatch path_;
+  idl::stream::AxisBatch axis_;
+  idl::stream::Feedback feedback_;
   idl::channel::AuxiliaryRequest request_;
   idl::plc::AuxiliaryDone done_;
 };
@@ -177,8 +177,8 @@ class Shift {
 }  // namespace
 
 const std::set<std::string>& aligned_topics() {
-  static const std::set<std::string> handles = {"path_frame",    "kinematics_frame", "compensation_frame",
-                                                "gantry_frame",  "feedback_frame",   "auxiliary_request",
+  static const std::set<std::string> handles = {"path_batch",    "kinematics_batch", "compensation_batch",
+                                                "gantry_batch",  "feedback",         "auxiliary_request",
                                                 "auxiliary_done"};
   return handles;
 }

@@ -17,9 +17,9 @@ namespace trunnion::verification {
 namespace {
 
 using idl::channel::AuxiliaryKind;
-using idl::stream::AxisFrame;
+using idl::stream::AxisBatch;
 using idl::stream::DriveMode;
-using idl::stream::PathFrame;
+using idl::stream::PathBatch;
 
 const std::map<std::string, std::vector<std::string>>& feature_names() {
   static const std::map<std::string, std::vector<std::string>> names = {
@@ -58,16 +58,16 @@ class Search {
 
   void see_output(const StoredMessage& message) {
     const auto& type = message.topic->type;
-    if (type == bus::Fields<PathFrame>::name && bus::decode(message.cdr, path_)) {
+    if (type == bus::Fields<PathBatch>::name && bus::decode(message.cdr, path_)) {
       see("motion", path_.count > 0);
       see("tool tip control", path_.transformation == idl::stream::Transformation::RTCP);
       see("skip move", !path_.snapshot.skip_stopped.empty());
       see("tapping", !path_.spindle.empty());
-    } else if (type == bus::Fields<AxisFrame>::name && bus::decode(message.cdr, axis_)) {
+    } else if (type == bus::Fields<AxisBatch>::name && bus::decode(message.cdr, axis_)) {
       see("motion", axis_.count > 0);
       revisions_.insert(axis_.revision);
       outputs_[{axis_.channel, axis_.epoch, axis_.first}] = {axis_.axes.size(), axis_.setpoints};
-    } else if (is(message, "feedback_frame", feedback_)) {
+    } else if (is(message, "feedback", feedback_)) {
       see("motion", feedback_.count > 0);
       see("braking", feedback_.mode == DriveMode::BRAKING);
       see("hold", feedback_.mode == DriveMode::HELD);
@@ -102,11 +102,11 @@ class Search {
     idl::parameters::ParameterSet set;
     if (is(message, "parameter_set", set)) {
       if (revisions_.contains(set.revision)) see_parameters(machine::parameters_of(set));
-    } else if (is(message, "path_frame", path_)) {
+    } else if (is(message, "path_batch", path_)) {
       if (!outputs_.contains({path_.channel, path_.epoch, path_.first})) return;
       see("tool tip control", path_.transformation == idl::stream::Transformation::RTCP);
       see("tool length", path_.tool_length != 0);
-    } else if (message.topic->type == bus::Fields<AxisFrame>::name && bus::decode(message.cdr, axis_)) {
+    } else if (message.topic->type == bus::Fields<AxisBatch>::name && bus::decode(message.cdr, axis_)) {
       const auto output = outputs_.find({axis_.channel, axis_.epoch, axis_.first});
       if (output == outputs_.end() || axis_.stage == idl::stream::Stage::GANTRY) return;
       see("gantry pair", output->second.first > axis_.axes.size());
@@ -125,9 +125,9 @@ class Search {
   std::set<std::string> seen_;
   std::set<std::uint64_t> revisions_;
   std::map<Place, std::pair<std::size_t, std::vector<double>>> outputs_;  // columns and setpoints
-  PathFrame path_;
-  AxisFrame axis_;
-  idl::stream::FeedbackFrame feedback_;
+  PathBatch path_;
+  AxisBatch axis_;
+  idl::stream::Feedback feedback_;
   idl::channel::AuxiliaryRequest auxiliary_;
   idl::plc::AuxiliaryDone done_;
   idl::channel::ChannelReply channel_reply_;

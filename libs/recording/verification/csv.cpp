@@ -7,7 +7,7 @@
 
 #include "bus/json.hpp"
 #include "text/instant.hpp"
-#include "verification/frame_rows.hpp"
+#include "verification/batch_rows.hpp"
 
 namespace trunnion::verification {
 namespace {
@@ -57,7 +57,7 @@ std::size_t write_csv(const StoredRecording& recording, const bus::TopicEntry& t
   std::size_t lines = 0;
   std::vector<std::string> cells(columns.size());
   for_each_row(recording, topic,
-               [&](const StoredMessage& message, const FrameSpan& span, std::size_t row,
+               [&](const StoredMessage& message, const BatchSpan& span, std::size_t row,
                    const std::vector<Field>& fields) {
                  for (auto& text : cells) text.clear();
                  for (const auto& field : fields) cells[place.at(field.name)] = cell(field.value);

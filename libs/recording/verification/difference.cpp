@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "verification/frame_rows.hpp"
+#include "verification/batch_rows.hpp"
 
 namespace trunnion::verification {
 namespace {
@@ -21,13 +21,13 @@ constexpr std::uint64_t shown_rows = 3;  // before and after the first differenc
 // In the order of the stream; then what is published when it changes and not by the clock.
 const std::vector<std::string>& default_topics() {
   static const std::vector<std::string> handles = {
-      "path_frame",     "kinematics_frame", "compensation_frame", "gantry_frame", "feedback_frame",
+      "path_batch",     "kinematics_batch", "compensation_batch", "gantry_batch", "feedback",
       "stream_request", "parameter_set",    "tool_table",         "work_offsets", "auxiliary_request",
       "auxiliary_done", "cycle_request",    "cycle_reply",        "alarm"};
   return handles;
 }
 
-// One row: of a frame, or a whole message.
+// One row: of a batch, or a whole message.
 struct Point {
   std::uint64_t series = 0, index = 0;
   std::uint32_t epoch = 0;
@@ -191,11 +191,11 @@ class Comparison {
     double off = 0;
     for (std::size_t i = 0; i < left.size(); ++i) {
       const auto* other = find(right, i, left[i].name);
-      if (other != nullptr ? !same(left[i].name, left[i].value, other->value, off) : !left[i].at_frame_end)
+      if (other != nullptr ? !same(left[i].name, left[i].value, other->value, off) : !left[i].at_batch_end)
         differs(left[i].name, off);
     }
     for (std::size_t i = 0; i < right.size(); ++i)
-      if (!right[i].at_frame_end && find(left, i, right[i].name) == nullptr) differs(right[i].name, 0);
+      if (!right[i].at_batch_end && find(left, i, right[i].name) == nullptr) differs(right[i].name, 0);
   }
 
   // What a side has of the field at this place.
@@ -219,7 +219,7 @@ class Comparison {
     first.cyclic = is_cyclic(topic);
     first.index = candidate.a.index;
     if (first.cyclic)
-      first.series = topic.handle == "feedback_frame" ? "" : "channel " + std::to_string(candidate.a.series);
+      first.series = topic.handle == "feedback" ? "" : "channel " + std::to_string(candidate.a.series);
     for (int i = -options_.around; i <= options_.around; ++i) {
       if (i < 0 && first.index < static_cast<std::uint64_t>(-i)) continue;
       Neighbour n{first.index + static_cast<std::uint64_t>(static_cast<std::int64_t>(i)), "", ""};

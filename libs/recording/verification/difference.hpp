@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two recordings side by side: frames of the stream by cycle, everything else message by message.
+// Two recordings side by side: batches of the stream by cycle, everything else message by message.
 #pragma once
 
 #include <map>

@@ -113,8 +113,8 @@ class Plan {
     OperatorLine line;
     if (is_shown(*message.topic)) {
       if (!is_of_gateway(message)) feeds_.push_back(&message);
-      act_on<idl::stream::FeedbackFrame>(message, "feedback_frame",
-                                         [&](const auto& frame) { plan_.outputs.cycles += frame.count; });
+      act_on<idl::stream::Feedback>(message, "feedback",
+                                    [&](const auto& feedback) { plan_.outputs.cycles += feedback.count; });
     } else if (message.topic->handle == "operator_request" && bus::decode(message.cdr, line)) {
       if (auto request = again(line))
         lines_.push_back({begin_of(line, message.time), message.time, std::move(*request)});

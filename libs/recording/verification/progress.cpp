@@ -62,7 +62,7 @@ std::pair<Mark, bool> Progress::observe(const StoredMessage& message) {
             },
             mark))
       mark.place.minor = at(mark.track).minor + 1;
-  } else if (message.topic->handle == "feedback_frame") {
+  } else if (message.topic->handle == "feedback") {
     if (!bus::decode(message.cdr, feedback_)) return {mark, false};
     mark.place = {feedback_.first + feedback_.count, feedback_.tick};
     count(feedback_.applied);

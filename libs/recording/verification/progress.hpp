@@ -6,12 +6,12 @@
 #include <map>
 #include <vector>
 
-#include "verification/frame_rows.hpp"
+#include "verification/batch_rows.hpp"
 #include "verification/stored_recording.hpp"
 
 namespace trunnion::verification {
 
-/// One line along which outputs ascend: a topic, for frames of one channel.
+/// One line along which outputs ascend: a topic, for batches of one channel.
 struct Track {
   const bus::TopicEntry* topic = nullptr;
   std::uint16_t channel = 0;
@@ -22,7 +22,7 @@ struct Track {
 /// The topic by which an input came that a service has told the tick of.
 const bus::TopicEntry* topic_of(idl::stream::Input input);
 
-/// Of frames: epoch and the cycle after the last. Of the drive's feedback: executed cycles and tick. Of the
+/// Of batches: epoch and the cycle after the last. Of the drive's feedback: executed cycles and tick. Of the
 /// PLC's input log: its tick. Of what is numbered: the number. Of an input: 0 and how many were applied, as
 /// the feedback or the log tells. Otherwise: 0 and how many messages there were.
 struct Place {
@@ -49,7 +49,7 @@ class Progress {
   void count(const std::vector<idl::stream::AppliedInput>& applied);
   std::map<Track, Place> places_;
   MessageRows rows_;
-  idl::stream::FeedbackFrame feedback_;
+  idl::stream::Feedback feedback_;
   idl::stream::InputLog input_log_;
   idl::stream::StreamRequest stream_request_;
   idl::channel::AuxiliaryRequest auxiliary_request_;

@@ -22,10 +22,10 @@ bool is_of(const StoredMessage& message, const bus::Topic<T>& topic) {
 // Source times of the messages that services say they have applied.
 std::set<std::uint64_t> applied_times(const std::vector<StoredMessage>& messages) {
   std::set<std::uint64_t> times;
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   idl::stream::InputLog log;
   for (const auto& message : messages) {
-    if (is_of(message, topics::feedback_frame) && bus::decode(message.cdr, feedback)) {
+    if (is_of(message, topics::feedback) && bus::decode(message.cdr, feedback)) {
       for (const auto& applied : feedback.applied) times.insert(applied.identity);
     } else if (is_of(message, topics::plc_input_log) && bus::decode(message.cdr, log)) {
       for (const auto& applied : log.applied) times.insert(applied.identity);

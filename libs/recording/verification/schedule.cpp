@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "verification/frame_rows.hpp"
+#include "verification/batch_rows.hpp"
 
 namespace trunnion::verification {
 
@@ -15,7 +15,7 @@ std::vector<Due> schedule(const StoredRecording& recording, const std::set<std::
   using Lane = std::pair<const bus::TopicEntry*, std::uint16_t>;
   struct Slots {
     std::vector<std::size_t> at;  // in `order`
-    std::vector<std::pair<Place, const StoredMessage*>> frames;
+    std::vector<std::pair<Place, const StoredMessage*>> batches;
   };
   std::vector<const StoredMessage*> order;
   for (const auto& message : recording.messages)
@@ -25,19 +25,19 @@ std::vector<Due> schedule(const StoredRecording& recording, const std::set<std::
   std::vector<std::uint64_t> times;
   for (const auto* message : order) times.push_back(message->time);
 
-  // Frames that came out of order change places among themselves.
+  // Batches that came out of order change places among themselves.
   std::map<Lane, Slots> lanes;
   MessageRows rows;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (!is_cyclic(*order[i]->topic) || !rows.load(*order[i]->topic, order[i]->cdr)) continue;
     auto& lane = lanes[{order[i]->topic, rows.span().channel}];
     lane.at.push_back(i);
-    lane.frames.push_back({{rows.span().epoch, rows.span().first}, order[i]});
+    lane.batches.push_back({{rows.span().epoch, rows.span().first}, order[i]});
   }
   for (auto& [key, lane] : lanes) {
-    std::stable_sort(lane.frames.begin(), lane.frames.end(),
+    std::stable_sort(lane.batches.begin(), lane.batches.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t i = 0; i < lane.at.size(); ++i) order[lane.at[i]] = lane.frames[i].second;
+    for (std::size_t i = 0; i < lane.at.size(); ++i) order[lane.at[i]] = lane.batches[i].second;
   }
 
   // A state that was there before was written long ago; the recording begins with what was written after it.

@@ -15,7 +15,7 @@ struct Due {
   double seconds = 0;  ///< after the beginning
 };
 
-/// In the order of the writers' clocks; of one frame topic and channel in the order of epochs and cycles,
+/// In the order of the writers' clocks; of one batch topic and channel in the order of epochs and cycles,
 /// whatever the order the recorder heard them in. What was written before the recording began, states that
 /// held then, is due at once. `topics` (handles) are left out when it is not empty and does not name them.
 /// `rate` is above 0: 2 is twice as fast.

@@ -17,7 +17,7 @@ using bus::Json;
 constexpr double rounding = 0.51e-6;  // mm or deg: the document is rounded to a millionth
 
 // Of a service's entry: what a missing heartbeat changes.
-constexpr const char* by_heartbeat[] = {"lifecycle", "detail", "frames_per_second", "alive"};
+constexpr const char* by_heartbeat[] = {"lifecycle", "detail", "messages_per_second", "alive"};
 
 // As a document that has been sent: bytes that are not UTF-8 replaced, and no number that JSON does not have.
 Json as_sent(const Json& json) { return Json::parse(bus::text_of(json)); }
@@ -34,11 +34,10 @@ bool is(const StoredMessage& message, const char* handle, T& value) {
 }  // namespace
 
 bool is_shown(const bus::TopicEntry& topic) {
-  static const std::set<std::string> handles = {"announcement",      "service_state",     "alarm",
-                                                "cluster",           "channel_state",     "feedback_frame",
-                                                "plc_outputs",       "tool_table",        "work_offsets",
-                                                "program_list",      "parameter_set",     "plc_image",
-                                                "measurement_state", "measurement_result"};
+  static const std::set<std::string> handles = {
+      "announcement",      "service_state",     "alarm",        "cluster",      "channel_state", "feedback",
+      "plc_outputs",       "tool_table",        "work_offsets", "program_list", "parameter_set", "plc_image",
+      "measurement_state", "measurement_result"};
   return handles.contains(topic.handle);
 }
 
@@ -47,7 +46,7 @@ void ShownState::observe(const StoredMessage& message) {
   idl::service::ServiceState state;
   idl::service::Alarm alarm;
   idl::channel::ChannelState channel;
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   idl::plc::Outputs outputs;
   idl::parameters::ParameterSet set;
   idl::parameters::ToolTable tools;
@@ -74,7 +73,7 @@ void ShownState::observe(const StoredMessage& message) {
                 {"lead", plan_.lead}};
   } else if (is(message, "channel_state", channel)) {
     channels_[channel.channel] = bus::to_json(channel);
-  } else if (is(message, "feedback_frame", feedback)) {
+  } else if (is(message, "feedback", feedback)) {
     const std::size_t width = feedback.axis_count;
     const auto whole = [&](const std::vector<double>& rows) { return width == 0 ? 0 : rows.size() / width; };
     const std::size_t rows = std::min(
@@ -165,7 +164,7 @@ Json ShownState::services() const {
     const auto announcement = said != announced_.end() ? said->second : idl::service::Announcement{};
     if (!entry.contains("replica")) entry["replica"] = 0;
     entry["host"] = announcement.host;
-    entry["frames_lost"] = state.frames_lost;
+    entry["cycles_lost"] = state.cycles_lost;
     entry["uptime"] = std::floor(state.uptime);
     entry["revision"] = state.revision;
     entry["in_step"] = state.in_step;

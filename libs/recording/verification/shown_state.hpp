@@ -46,7 +46,7 @@ class ShownState {
   std::map<std::string, bus::Json> newest_;  ///< of the topics that are read as they are, by path
   bus::Json cluster_, drive_, plc_, measurement_, measurement_result_;
   idl::service::Cluster plan_;
-  idl::stream::FeedbackFrame feedback_;
+  idl::stream::Feedback feedback_;
   std::vector<double> commanded_, actual_;  ///< the newest row; before there is one, where the axes stand
   bool executed_ = false;                   ///< there was a row
   std::vector<std::uint16_t> columns_;

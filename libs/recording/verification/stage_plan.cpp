@@ -22,10 +22,10 @@ constexpr std::uint64_t window = 256;
 
 struct Input {
   const StoredMessage* message = nullptr;
-  FrameSpan span;
+  BatchSpan span;
 };
 
-struct Feedback {
+struct ReportedCycles {
   const StoredMessage* message = nullptr;
   std::uint64_t executed = 0;
 };
@@ -35,13 +35,13 @@ struct Revision {
   std::uint64_t revision = 0, lead = 0;
 };
 
-bool earlier(const FrameSpan& a, const FrameSpan& b) {
+bool earlier(const BatchSpan& a, const BatchSpan& b) {
   return std::pair(a.epoch, a.first) < std::pair(b.epoch, b.first);
 }
 
 struct Lane {
   std::vector<Input> inputs;    // ascending
-  std::vector<FrameSpan> done;  // recorded outputs that follow from them, ascending
+  std::vector<BatchSpan> done;  // recorded outputs that follow from them, ascending
   std::size_t next = 0;
   std::uint64_t joins_at = 0;  // executed cycles from which a stage can begin in the middle of a motion
   bool joined = false;         // its first output is waited for
@@ -69,7 +69,7 @@ class StagePlan {
       if (handle == stage_.input) {
         if (rows.load(*message.topic, message.cdr))
           lanes_[rows.span().channel].inputs.push_back({&message, rows.span()});
-      } else if (handle == "feedback_frame") {
+      } else if (handle == "feedback") {
         if (rows.load(*message.topic, message.cdr))
           feedback_.push_back({&message, rows.span().first + rows.span().count});
       } else if (handle == "parameter_set") {
@@ -82,7 +82,9 @@ class StagePlan {
     }
     if (revisions_.empty()) throw std::runtime_error("the recording has no parameters");
     lead_ = revisions_.front().lead;
-    const auto by_executed = [](const Feedback& a, const Feedback& b) { return a.executed < b.executed; };
+    const auto by_executed = [](const ReportedCycles& a, const ReportedCycles& b) {
+      return a.executed < b.executed;
+    };
     std::stable_sort(feedback_.begin(), feedback_.end(), by_executed);
     std::stable_sort(revisions_.begin(), revisions_.end(),
                      [](const Revision& a, const Revision& b) { return a.revision < b.revision; });
@@ -90,7 +92,7 @@ class StagePlan {
       auto& inputs = lane.inputs;
       std::stable_sort(inputs.begin(), inputs.end(),
                        [](const Input& a, const Input& b) { return earlier(a.span, b.span); });
-      // Of the replicas of a frame the first to arrive is what the stage took.
+      // Of the replicas of a batch the first to arrive is what the stage took.
       inputs.erase(std::unique(inputs.begin(), inputs.end(),
                                [](const Input& a, const Input& b) {
                                  return a.span.epoch == b.span.epoch && a.span.first == b.span.first;
@@ -99,7 +101,7 @@ class StagePlan {
     }
   }
 
-  // Leaves out the inputs before the first from which a stage can know its state: a start, or the frame
+  // Leaves out the inputs before the first from which a stage can know its state: a start, or the batch
   // behind a consistent cut in the feedback.
   void begin_lane(std::uint16_t channel, Lane& lane) {
     auto& inputs = lane.inputs;
@@ -122,12 +124,12 @@ class StagePlan {
 
   bool join(std::uint16_t channel, Lane& lane) {
     auto& inputs = lane.inputs;
-    idl::stream::FeedbackFrame frame;
+    idl::stream::Feedback batch;
     std::optional<std::uint64_t> first_row;
     for (const auto& feedback : feedback_) {
-      if (!bus::decode(feedback.message->cdr, frame)) continue;
-      if (!first_row && frame.count > 0) first_row = frame.first;
-      for (const auto& echo : frame.channels) {
+      if (!bus::decode(feedback.message->cdr, batch)) continue;
+      if (!first_row && batch.count > 0) first_row = batch.first;
+      for (const auto& echo : batch.channels) {
         if (echo.channel != channel || !echo.active) continue;
         const auto state = std::find_if(echo.states.begin(), echo.states.end(),
                                         [&](const auto& s) { return s.stage == stream::stage_of(stage_); });
@@ -153,7 +155,7 @@ class StagePlan {
       auto& lane = lanes_[rows.span().channel];
       const auto found =
           std::lower_bound(lane.inputs.begin(), lane.inputs.end(), rows.span(),
-                           [](const Input& a, const FrameSpan& b) { return earlier(a.span, b); });
+                           [](const Input& a, const BatchSpan& b) { return earlier(a.span, b); });
       if (found == lane.inputs.end() || earlier(rows.span(), found->span)) continue;
       plan_.expected.push_back(message);
       plan_.cycles += rows.rows();
@@ -162,11 +164,11 @@ class StagePlan {
     for (auto& [channel, lane] : lanes_) std::stable_sort(lane.done.begin(), lane.done.end(), earlier);
   }
 
-  Mark mark_of(std::uint16_t channel, const FrameSpan& span) const {
+  Mark mark_of(std::uint16_t channel, const BatchSpan& span) const {
     return {{bus::find_topic(stage_.output), channel}, {span.epoch, span.first + span.count}};
   }
 
-  // The executed cycles that the channel's credit for this frame needed, in real time. The first frame comes
+  // The executed cycles that the channel's credit for this batch needed, in real time. The first batch comes
   // with the cut that it follows, or before the first cycle of its motion: a process that has just started
   // would join at the later cut of newer feedback.
   std::uint64_t credit(const Lane& lane) const {
@@ -192,7 +194,7 @@ class StagePlan {
           best = &lane, best_channel = channel, best_credit = needed;
       }
       if (best != nullptr) {
-        feed_frame(best_channel, *best);
+        feed_batch(best_channel, *best);
       } else if (any) {
         executed = feedback_[fed].executed;
         Step step{feedback_[fed++].message, {}, false};
@@ -210,7 +212,7 @@ class StagePlan {
     if (plan_.steps.empty()) plan_.steps.push_back({revisions_.front().message, {}, false});
   }
 
-  void feed_frame(std::uint16_t channel, Lane& lane) {
+  void feed_batch(std::uint16_t channel, Lane& lane) {
     const auto& input = lane.inputs[lane.next++];
     const Revision* wanted = nullptr;
     for (const auto& revision : revisions_)
@@ -233,7 +235,7 @@ class StagePlan {
   }
 
   // The newest recorded output up to `limit`; `before`: without the one there.
-  static const FrameSpan* last_done(const Lane& lane, const FrameSpan* limit, bool before) {
+  static const BatchSpan* last_done(const Lane& lane, const BatchSpan* limit, bool before) {
     if (limit == nullptr) return nullptr;
     const auto end = before ? std::lower_bound(lane.done.begin(), lane.done.end(), *limit, earlier)
                             : std::upper_bound(lane.done.begin(), lane.done.end(), *limit, earlier);
@@ -244,7 +246,7 @@ class StagePlan {
   const machine::ServiceDefinition& stage_;
   VerifyPlan& plan_;
   std::map<std::uint16_t, Lane> lanes_;
-  std::vector<Feedback> feedback_;
+  std::vector<ReportedCycles> feedback_;
   std::vector<Revision> revisions_;
   std::uint64_t lead_ = 32, published_ = 0;
 };

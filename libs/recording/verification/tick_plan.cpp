@@ -67,14 +67,14 @@ class TickPlan {
 
   void sort_messages() {
     idl::stream::InputLog log;
-    idl::stream::FeedbackFrame feedback;
+    idl::stream::Feedback feedback;
     idl::parameters::ParameterSet set;
-    own_ = {bus::find_topic(drive_ ? "feedback_frame" : "plc_input_log"), 0};
+    own_ = {bus::find_topic(drive_ ? "feedback" : "plc_input_log"), 0};
     for (const auto& message : recording_.messages) {
       const auto& handle = message.topic->handle;
       const bool counts = !plan_.seed || plan_.seed->covers(message);
       if (counts && plan_.topics.contains(handle)) plan_.expected.push_back(message);
-      if (handle == "feedback_frame" && bus::decode(message.cdr, feedback)) {
+      if (handle == "feedback" && bus::decode(message.cdr, feedback)) {
         if (!drive_ && !is_to_come(message)) continue;
         told_.emplace_back(&message, Place{feedback.first + feedback.count, feedback.tick});
         if (!counts) continue;
@@ -131,7 +131,7 @@ class TickPlan {
   }
 
   bool is_setpoint_after_seed(const bus::TopicEntry& topic, std::uint64_t time) const {
-    if (!plan_.seed || topic.handle != "gantry_frame") return false;
+    if (!plan_.seed || topic.handle != "gantry_batch") return false;
     const auto taken = plan_.seed->taken.find(&topic);
     return taken == plan_.seed->taken.end() || time > taken->second;
   }

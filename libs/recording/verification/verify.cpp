@@ -91,7 +91,7 @@ class Feeding {
   bus::RawWriter& writer(const bus::TopicEntry& topic) {
     auto& writer = writers_[&topic];
     if (!writer)
-      writer = bus_.backend().writer(topic.description, bus::writer_qos(topic.qos, {stream_frames}));
+      writer = bus_.backend().writer(topic.description, bus::writer_qos(topic.qos, {stream_batches}));
     return *writer;
   }
 
@@ -198,7 +198,7 @@ VerifyResult verify_service(const VerifyOptions& options, const StoredRecording&
   std::vector<StoredMessage> produced;
   {
     const VerifyPlace place(options.domain);
-    bus::Bus bus(bus::Vendor::cyclonedds, {place.domain()}, {stream_frames});
+    bus::Bus bus(bus::Vendor::cyclonedds, {place.domain()}, {stream_batches});
     cluster::ChildProcess process(child_options(command_line(options, recording, plan, place), place));
     Feeding feeding(options, recording, plan, bus, process);
     result.problem = feeding.run();

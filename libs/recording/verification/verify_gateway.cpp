@@ -94,7 +94,7 @@ class Verification {
   bus::RawWriter& writer(const bus::TopicEntry& topic) {
     auto& writer = writers_[&topic];
     if (!writer)
-      writer = bus_.backend().writer(topic.description, bus::writer_qos(topic.qos, {stream_frames}));
+      writer = bus_.backend().writer(topic.description, bus::writer_qos(topic.qos, {stream_batches}));
     return *writer;
   }
 
@@ -258,7 +258,7 @@ VerifyResult verify_gateway(const VerifyOptions& options, const StoredRecording&
     const auto port = http_client::free_port();
     auto arguments = command_line(options, recording, plan.outputs, place);
     arguments.insert(arguments.end(), {"--port", std::to_string(port), "--verified"});
-    bus::Bus bus(bus::Vendor::cyclonedds, {place.domain()}, {stream_frames});
+    bus::Bus bus(bus::Vendor::cyclonedds, {place.domain()}, {stream_batches});
     cluster::ChildProcess process(child_options(std::move(arguments), place));
     Verification verification(options, plan, bus, process, port);
     result.problem = verification.run();

@@ -14,7 +14,7 @@
 namespace trunnion::verification {
 
 /// That a writer of the stream keeps.
-constexpr int stream_frames = 4096;
+constexpr int stream_batches = 4096;
 /// s for what a process writes beyond what is recorded.
 constexpr double final_messages = 0.05;
 

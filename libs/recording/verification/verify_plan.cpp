@@ -40,7 +40,7 @@ bool has_several_channels(const StoredRecording& recording) {
   std::set<std::uint16_t> channels;
   MessageRows rows;
   for (const auto& message : recording.messages)
-    if (message.topic->handle == "path_frame" && rows.load(*message.topic, message.cdr))
+    if (message.topic->handle == "path_batch" && rows.load(*message.topic, message.cdr))
       channels.insert(rows.span().channel);
   return channels.size() > 1;
 }
@@ -58,7 +58,7 @@ class Ownership {
   bool owns(const StoredMessage& message) {
     if (!only_channel_) return true;
     const auto& handle = message.topic->handle;
-    if (handle == "path_frame")
+    if (handle == "path_batch")
       return rows_.load(*message.topic, message.cdr) && rows_.span().channel == channel_;
     if (handle == "stream_request") return bus::decode(message.cdr, stream_) && stream_.channel == channel_;
     if (handle == "auxiliary_request")
@@ -184,7 +184,7 @@ class OrderedPlan {
         plan_.expected.push_back(*message);
         const auto [mark, further] = progress.observe(*message);
         if (further) raised[mark.track] = mark.place;
-        if (message->topic->handle == "feedback_frame" || message->topic->handle == "path_frame")
+        if (message->topic->handle == "feedback" || message->topic->handle == "path_batch")
           count_cycles(*message);
       } else if (is_input(*message)) {
         Step step{message, {}, !is_cyclic(*message->topic)};
@@ -370,13 +370,12 @@ std::string missing_feedback(const VerifyPlan& plan) {
   MessageRows rows;
   std::uint64_t end = 0;
   for (const auto& step : plan.steps) {
-    if (step.message->topic->handle != "feedback_frame" ||
-        !rows.load(*step.message->topic, step.message->cdr))
+    if (step.message->topic->handle != "feedback" || !rows.load(*step.message->topic, step.message->cdr))
       continue;
     const auto& span = rows.span();
     if (end != 0 && span.first > end)
       return "the recording misses cycles " + std::to_string(end) + " to " + std::to_string(span.first - 1) +
-             " of feedback_frame";
+             " of feedback";
     end = span.first + span.count;
   }
   return "";

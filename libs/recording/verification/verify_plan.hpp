@@ -47,9 +47,9 @@ class NothingToVerify : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Stages are fed by cycle: a frame when the drive had executed what the channel's credit for it needs and
-/// the stage is at most some frames behind; one that starts when everything before it is done; parameters
-/// before the first frame made with them. Other services are fed in the order of the recording, each message
+/// Stages are fed by cycle: a batch when the drive had executed what the channel's credit for it needs and
+/// the stage is at most some batches behind; one that starts when everything before it is done; parameters
+/// before the first batch made with them. Other services are fed in the order of the recording, each message
 /// once the service has written what it had written before it. `channel` matters to a channel only.
 /// Throws std::runtime_error when the recording does not have what it takes, NothingToVerify when that is not
 /// its fault.

@@ -27,7 +27,7 @@ TEST_F(Channel, RunsAProgramToItsEndAndLandsOnTheLastPointBitForBit) {
   EXPECT_TRUE(events.empty()) << events[0].text;
 }
 
-TEST_F(Channel, TheTrajectoryDoesNotDependOnWhenFramesAreExecuted) {
+TEST_F(Channel, TheTrajectoryDoesNotDependOnWhenBatchesAreExecuted) {
   const std::string program = "G90\nG1 X20 Y3 F3000\nX40 Y-3\nG3 X60 Y-3 R15\nG4 X0.05\nG0 Z10\nM30\n";
   load(program);
   ask(CommandKind::CYCLE_START);
@@ -410,11 +410,11 @@ TEST_F(Channel, NothingIsWrittenFartherThanTwoLeadsBeyondTheSlowestCopy) {
   core->set_replicas(true, 0);  // as of a replica that has received nothing of this motion
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
   for (int i = 0; i < 50; ++i) round();
-  // Parameter 000900: the lead is 32 cycles. Two of them are allowed, frame by frame of 16.
+  // Parameter 000900: the lead is 32 cycles. Two of them are allowed, batch by batch of 16.
   EXPECT_EQ(drive.next - begin, 64u);
   core->set_replicas(true, begin + 10);
   for (int i = 0; i < 50; ++i) round();
-  EXPECT_EQ(drive.next - begin, 64u) << "74 cycles do not hold another whole frame of 16";
+  EXPECT_EQ(drive.next - begin, 64u) << "74 cycles do not hold another whole batch of 16";
   core->set_replicas(true, begin + 16);
   for (int i = 0; i < 50; ++i) round();
   EXPECT_EQ(drive.next - begin, 80u);

@@ -271,7 +271,7 @@ TEST(ChannelSnapshot, LosesNoFieldOfItsMessage) {
   const auto snapshot = snapshot_of(stored);
   ASSERT_TRUE(snapshot);
   store(*snapshot, snapshot->skips, back);
-  back.cycle = stored.cycle;  // the frame sets it
+  back.cycle = stored.cycle;  // the batch sets it
   EXPECT_EQ(back, stored);
 }
 

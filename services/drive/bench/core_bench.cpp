@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One cycle of the executor: five simulated axes in motion, with a frame every eighth time.
+// One cycle of the executor: five simulated axes in motion, with a batch every eighth time.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace trunnion::drive {
 namespace {
 
 constexpr std::uint16_t axes = 5;
-constexpr std::uint32_t frame_cycles = 8;
+constexpr std::uint32_t batch_cycles = 8;
 
 machine::Parameters five_axes() {
   machine::Parameters p;
@@ -28,13 +28,13 @@ machine::Parameters five_axes() {
 }
 
 // 10 mm to and fro with at most 0.1 mm in a cycle.
-void fill(idl::stream::AxisFrame& frame, std::uint64_t first) {
-  frame.axes.clear(), frame.setpoints.clear();
-  frame.epoch = 1, frame.first = first, frame.count = frame_cycles, frame.starts = first == 0;
-  frame.revision = 1;
-  for (std::uint16_t a = 0; a < axes; ++a) frame.axes.push_back(a);
-  for (std::uint64_t n = first; n < first + frame_cycles; ++n)
-    frame.setpoints.insert(frame.setpoints.end(), axes, 10 * std::sin(0.01 * static_cast<double>(n)));
+void fill(idl::stream::AxisBatch& batch, std::uint64_t first) {
+  batch.axes.clear(), batch.setpoints.clear();
+  batch.epoch = 1, batch.first = first, batch.count = batch_cycles, batch.starts = first == 0;
+  batch.revision = 1;
+  for (std::uint16_t a = 0; a < axes; ++a) batch.axes.push_back(a);
+  for (std::uint64_t n = first; n < first + batch_cycles; ++n)
+    batch.setpoints.insert(batch.setpoints.end(), axes, 10 * std::sin(0.01 * static_cast<double>(n)));
 }
 
 void cycle(benchmark::State& state) {
@@ -42,16 +42,16 @@ void cycle(benchmark::State& state) {
   core.configure(five_axes(), true);
   core.set_enables({1, 1, 1, 1, 1}, false);
   core.request({0, 1, idl::stream::StreamRequestKind::NEW_EPOCH, 1, 0});
-  idl::stream::AxisFrame frame;
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::AxisBatch batch;
+  idl::stream::Feedback feedback;
   std::uint64_t written = 0;
   while (state.KeepRunning()) {
-    for (; written < core.next() + 64; written += frame_cycles) {
-      fill(frame, written);
-      core.put(frame);
+    for (; written < core.next() + 64; written += batch_cycles) {
+      fill(batch, written);
+      core.put(batch);
     }
     core.step();
-    if (core.rows() >= frame_cycles) core.fill(feedback);
+    if (core.rows() >= batch_cycles) core.fill(feedback);
   }
   if (core.mode() != Mode::FOLLOWING || !core.any_active()) state.SkipWithError("the axes do not move");
 }

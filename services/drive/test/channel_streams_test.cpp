@@ -22,17 +22,17 @@ struct Streams : ::testing::Test {
   }
   // Four cycles; the setpoint of X, Y, Z in cycle n is n, 100 + n, 200 + n.
   void put(std::uint16_t channel, std::uint64_t first, bool ends = false) {
-    idl::stream::AxisFrame frame;
-    frame.channel = channel, frame.epoch = 1, frame.first = first, frame.count = 4, frame.ends = ends;
-    frame.starts = first == 0;
+    idl::stream::AxisBatch batch;
+    batch.channel = channel, batch.epoch = 1, batch.first = first, batch.count = 4, batch.ends = ends;
+    batch.starts = first == 0;
     if (channel == 0)
-      frame.axes = {2, 0};
+      batch.axes = {2, 0};
     else
-      frame.axes = {1};
+      batch.axes = {1};
     for (std::uint64_t n = first; n < first + 4; ++n)
-      for (const auto axis : frame.axes) frame.setpoints.push_back(100.0 * axis + static_cast<double>(n));
-    frame.snapshot.cycle = first + 3;
-    EXPECT_TRUE(streams.put(frame));
+      for (const auto axis : batch.axes) batch.setpoints.push_back(100.0 * axis + static_cast<double>(n));
+    batch.snapshot.cycle = first + 3;
+    EXPECT_TRUE(streams.put(batch));
   }
   std::vector<double> setpoints(std::uint64_t cycle) {
     std::vector<double> out = {-1, -1, -1};
@@ -75,7 +75,7 @@ TEST_F(Streams, AChannelEndsWithItsLastCycleAndIsReportedUntilThatIsExecuted) {
   }
   EXPECT_FALSE(streams.find(0)->active);
   EXPECT_TRUE(streams.find(1)->active);
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   streams.fill(4, feedback);
   ASSERT_EQ(feedback.channels.size(), 2u);
   EXPECT_TRUE(feedback.channels[0].active);

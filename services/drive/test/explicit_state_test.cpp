@@ -13,11 +13,11 @@
 namespace trunnion::drive {
 namespace {
 
-using idl::stream::FeedbackFrame;
+using idl::stream::Feedback;
 using idl::stream::StreamRequestKind;
 
-idl::stream::AxisFrame frame(std::uint32_t epoch, std::uint64_t first, std::uint64_t start, bool ends) {
-  idl::stream::AxisFrame f;
+idl::stream::AxisBatch batch(std::uint32_t epoch, std::uint64_t first, std::uint64_t start, bool ends) {
+  idl::stream::AxisBatch f;
   f.epoch = epoch, f.first = first, f.count = 8, f.starts = first == start, f.ends = ends, f.revision = 1;
   f.axes = {0, 1};
   for (std::uint64_t n = first; n < first + 8; ++n) {
@@ -58,7 +58,7 @@ struct Machine {
         break;
       default:
         if (epoch == 0 || written > core.next() + 64) break;
-        auto next = frame(epoch, written, start, choice % 64 == 63);
+        auto next = batch(epoch, written, start, choice % 64 == 63);
         written += 8;
         core.put(next);
     }
@@ -72,7 +72,7 @@ struct Machine {
   }
 
   DriveCore core{std::make_unique<SimulatedHardware>()};
-  FeedbackFrame feedback;
+  Feedback feedback;
   std::uint32_t epoch = 0, number = 0;
   std::uint64_t written = 0, start = 0;
 };

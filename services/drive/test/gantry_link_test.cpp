@@ -156,7 +156,7 @@ TEST_F(Beam, AMirroredSlaveInTorqueFollowNeedsTheInvertedTorque) {
     m.build();
     m.release();
     if (!m.started()) return false;
-    // The frames of move() have no mirrored slave: the servos alone, by a push of the master.
+    // The batches of move() have no mirrored slave: the servos alone, by a push of the master.
     m.request(idl::stream::StreamRequestKind::LEAVE);
     const auto hardware = std::make_unique<SimulatedHardware>(m.truth, std::nullopt, m.beam);
     hardware->configure(m.parameters, machine::drive_axes(m.parameters), {}, 0.001);

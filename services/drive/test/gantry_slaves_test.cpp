@@ -39,14 +39,14 @@ TEST_F(SlavesOfGantry, ASlaveThatIsTakenOffStaysWhereItIs) {
 
 TEST_F(SlavesOfGantry, TheFirstSetpointOfItsChannelKeepsItsDistance) {
   EXPECT_DOUBLE_EQ(GantrySlaves::misalignment(slave(), streams, command), 0.25);
-  idl::stream::AxisFrame frame;
-  frame.epoch = 1, frame.first = 8, frame.count = 1, frame.starts = true;
-  frame.axes = {0, 1, 2};
-  frame.setpoints = {0, 10, 10.125};  // 0.125 mm of compensation
+  idl::stream::AxisBatch batch;
+  batch.epoch = 1, batch.first = 8, batch.count = 1, batch.starts = true;
+  batch.axes = {0, 1, 2};
+  batch.setpoints = {0, 10, 10.125};  // 0.125 mm of compensation
   auto& channel = *streams.find(0);
   channel.window.set_next(1, 8);
   channel.start = 8;
-  ASSERT_TRUE(streams.put(frame));
+  ASSERT_TRUE(streams.put(batch));
   slaves.keep_distances(streams, 8, command);
   EXPECT_FALSE(slave().offset_known) << "the channel does not move it";
   channel.active = true;

@@ -140,7 +140,7 @@ struct HomedAxis : ::testing::Test {
     while (core.can_step(false)) core.step();
   }
   double position() {
-    idl::stream::FeedbackFrame feedback;
+    idl::stream::Feedback feedback;
     core.fill(feedback);
     return feedback.position[0];
   }
@@ -156,7 +156,7 @@ TEST_F(HomedAxis, FindsItsReferenceOnDemandAndIsReadyForTheStreamAfterwards) {
   run();
   EXPECT_EQ(core.mode(), Mode::FOLLOWING);
   EXPECT_TRUE(core.take_events().empty());
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   core.fill(feedback);
   // It comes to rest beyond the edge at 5 by what it takes to brake from 1 mm/s.
   EXPECT_NEAR(feedback.position[0], 5, 0.01);

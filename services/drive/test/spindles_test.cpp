@@ -15,7 +15,7 @@ TEST(Spindles, TheStreamGoesBeforeTheOrientationAndThatBeforeTheSpeed) {
   EXPECT_EQ(spindles.axes()[0].number, 5);
   std::vector<SpindleStatus> status(1);
   std::vector<SpindleSetpoint> out(1);
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   status[0].angle = 7;
   spindles.demand_speeds({300});
   spindles.demand_orientations({1});

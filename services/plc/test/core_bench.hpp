@@ -30,19 +30,19 @@ struct Bench {
   }
 
   void feedback() {
-    idl::stream::FeedbackFrame frame;
-    frame.first = executed;
-    frame.tick = tick;
-    frame.channels.resize(2);
-    frame.channels[1].channel = 1;
-    frame.channels[0].active = active;
-    frame.spindle_speed.assign(speed.begin(), speed.end());
-    frame.enabled = {1, 1};
-    frame.skip_inputs = skip_inputs;
+    idl::stream::Feedback batch;
+    batch.first = executed;
+    batch.tick = tick;
+    batch.channels.resize(2);
+    batch.channels[1].channel = 1;
+    batch.channels[0].active = active;
+    batch.spindle_speed.assign(speed.begin(), speed.end());
+    batch.enabled = {1, 1};
+    batch.skip_inputs = skip_inputs;
     const auto outputs = core.outputs();
     for (std::size_t s = 0; s < outputs.spindle_orient.size() && s < 2; ++s)
-      frame.spindle_oriented.push_back(outputs.spindle_orient[s] != 0 && speed[s] == 0 ? 1 : 0);
-    core.set_feedback(frame);
+      batch.spindle_oriented.push_back(outputs.spindle_orient[s] != 0 && speed[s] == 0 ? 1 : 0);
+    core.set_feedback(batch);
     step();
   }
   void step() {

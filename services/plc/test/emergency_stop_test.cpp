@@ -15,7 +15,7 @@ TEST(EmergencyStop, APressThatTheDriveHoldsIsTakenOnce) {
   Bench bench;
   bench.run();
   ASSERT_FALSE(bench.core.emergency_stop());
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   feedback.press_client = 7, feedback.press_number = 3;
   bench.core.set_feedback(feedback);
   EXPECT_TRUE(bench.core.outputs().presses.empty()) << "the programs have not run since";

@@ -190,7 +190,7 @@ TEST(Handshake, ARequestWaitsForTheDriveToConfirmTheStandstill) {
   bench.active = true;
   bench.feedback();
   bench.executed = 600;
-  bench.request(M, 6);  // the drive's frame of cycle 600 has not arrived
+  bench.request(M, 6);  // the drive's batch of cycle 600 has not arrived
   EXPECT_TRUE(bench.core.waits_for_standstill());
   EXPECT_EQ(bench.core.outputs().run_until_tick, bench.tick);
   bench.tick += 100, bench.active = false;

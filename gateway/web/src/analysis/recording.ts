@@ -90,7 +90,7 @@ const left = /^(snapshot\.|states|channel$|epoch$|revision$|starts$|ends$|second
 export const mostColumns = 64;
 
 /**
- * What `trunnion export FILE --csv feedback_frame` (or path_frame, axis frames) writes, and what this page exports: a line of
+ * What `trunnion export FILE --csv feedback` (or path_batch, batches of axes) writes, and what this page exports: a line of
  * names with `cycle`, then numbers. Columns of texts are left out. Throws BadCsv.
  */
 export function parseCsv(bytes: Uint8Array, name: string, period: number): Recording {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// New programs into the running PLC: files chosen and edited, checked, compared in shadow, taken over or dropped.
+// New programs into the running PLC: files chosen and edited, checked, compared on standby, taken over or dropped.
 import { useSignal } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { get, post, remove } from "../api";

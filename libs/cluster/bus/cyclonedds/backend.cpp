@@ -310,7 +310,7 @@ std::string configuration(const NetworkSettings& network) {
       << network.interface_address << "\"/></Interfaces><AllowMulticast>"
       << (network.multicast ? "spdp" : "false")
       << "</AllowMulticast>"
-         // A frame in one piece: fragments of a history that is asked for are sent several times over.
+         // A batch in one piece: fragments of a history that is asked for are sent several times over.
          "<FragmentSize>12000B</FragmentSize></General>"
          "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>39</"
          "MaxAutoParticipantIndex><Peers>";

@@ -42,22 +42,22 @@ TEST_P(BusOverVendors, KeyedStateReachesALateJoinerWithTheNewestOfEachKey) {
   }));
 }
 
-TEST_P(BusOverVendors, FramesArriveInOrderAndHistoryIsAsDeepAsAsked) {
+TEST_P(BusOverVendors, BatchesArriveInOrderAndHistoryIsAsDeepAsAsked) {
   const auto [from, to, domain] = GetParam();
   Bus a(from, {domain + 4}, {16}), b(to, {domain + 4});
-  auto writer = a.writer(topics::gantry_frame);
-  idl::stream::AxisFrame frame;
-  for (frame.first = 1; frame.first <= 40; ++frame.first) writer.write(frame);
-  auto reader = b.reader(topics::gantry_frame);
+  auto writer = a.writer(topics::gantry_batch);
+  idl::stream::AxisBatch batch;
+  for (batch.first = 1; batch.first <= 40; ++batch.first) writer.write(batch);
+  auto reader = b.reader(topics::gantry_batch);
   std::vector<std::uint64_t> seen;
   const auto drain = [&] {
-    idl::stream::AxisFrame in;
+    idl::stream::AxisBatch in;
     while (reader.take(in)) seen.push_back(in.first);
-    return !seen.empty() && seen.back() == frame.first - 1;
+    return !seen.empty() && seen.back() == batch.first - 1;
   };
   ASSERT_TRUE(eventually(drain));
   EXPECT_EQ(seen.size(), 16u) << "the writer keeps its last 16";
-  for (; frame.first <= 200; ++frame.first) writer.write(frame);
+  for (; batch.first <= 200; ++batch.first) writer.write(batch);
   ASSERT_TRUE(eventually(drain));
   ASSERT_EQ(seen.size(), 176u);
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], 25 + i);
@@ -92,8 +92,8 @@ TEST_P(BusOverVendors, ASampleOf60KilobytesIsDelivered) {
 TEST_P(BusOverVendors, AWriterHearsThatAReaderHasLeft) {
   const auto [from, to, domain] = GetParam();
   Bus a(from, {domain + 16}), b(to, {domain + 16});
-  auto writer = a.backend().writer(describe(topics::gantry_frame), {true, 16});
-  auto reader = std::make_unique<Reader<idl::stream::AxisFrame>>(b.reader(topics::gantry_frame));
+  auto writer = a.backend().writer(describe(topics::gantry_batch), {true, 16});
+  auto reader = std::make_unique<Reader<idl::stream::AxisBatch>>(b.reader(topics::gantry_batch));
   ASSERT_TRUE(eventually([&] { return writer->matched() == 1; }));
   reader.reset();
   EXPECT_TRUE(eventually([&] { return writer->matched() == 0; }));
@@ -105,15 +105,15 @@ TEST_P(BusOverVendors, ARefusedMessageNamesTheProcessThatHasWrittenIt) {
   Bus b(to, network);
   network.identity = "stranger";
   Bus a(from, network);
-  auto writer = a.writer(topics::gantry_frame);
-  auto reader = b.reader(topics::gantry_frame);
-  idl::stream::AxisFrame frame, taken;
+  auto writer = a.writer(topics::gantry_batch);
+  auto reader = b.reader(topics::gantry_batch);
+  idl::stream::AxisBatch batch, taken;
   for (const double value : {std::numeric_limits<double>::quiet_NaN(), 0.0}) {
-    frame.setpoints = {value};
-    writer.write(frame);
+    batch.setpoints = {value};
+    writer.write(batch);
   }
   ASSERT_TRUE(eventually([&] { return reader.take(taken); }));
-  const auto& refusals = b.refusals().at(topics::gantry_frame.name);
+  const auto& refusals = b.refusals().at(topics::gantry_batch.name);
   EXPECT_EQ(refusals.count, 1u);
   EXPECT_EQ(refusals.writer.find("process " + std::to_string(getpid())), 0u) << refusals.writer;
   EXPECT_NE(refusals.writer.find(" on host "), std::string::npos) << refusals.writer;
@@ -173,7 +173,7 @@ TEST(Bus, WhatIsOpenedIsLoggedWithItsIdentityWhenAskedFor) {
     network.identity = to_string(vendor);
     Bus bus(vendor, network);
     bus.writer(topics::alarm);
-    bus.reader(topics::feedback_frame);
+    bus.reader(topics::feedback);
   }
   unsetenv("TRUNNION_ENDPOINTS");
   {
@@ -184,8 +184,8 @@ TEST(Bus, WhatIsOpenedIsLoggedWithItsIdentityWhenAskedFor) {
   logged << std::ifstream(file).rdbuf();
   std::string expected;
   for (const std::string vendor : {"cyclonedds", "fastdds"})
-    expected += vendor + " writes " + topics::alarm.name + "\n" + vendor + " reads " +
-                topics::feedback_frame.name + "\n";
+    expected +=
+        vendor + " writes " + topics::alarm.name + "\n" + vendor + " reads " + topics::feedback.name + "\n";
   EXPECT_EQ(logged.str(), expected);
   std::filesystem::remove(file);
   setenv("TRUNNION_ENDPOINTS", "/nowhere/endpoints", 1);

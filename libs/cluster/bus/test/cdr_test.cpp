@@ -40,18 +40,18 @@ TEST(Cdr, WritesAStringWithItsLengthAndItsNul) {
 }
 
 TEST(Cdr, DecodesWhatItEncodes) {
-  idl::stream::PathFrame frame, copy;
-  frame.first = 77;
-  frame.count = 2;
-  frame.setpoints.assign(18, 0.1);
-  frame.lines = {5, 6};
-  frame.states.push_back({idl::stream::Stage::KINEMATICS, 78, {1, 2, 3}});
-  frame.states.push_back({idl::stream::Stage::GANTRY, 78, {}});
-  frame.snapshot.valid = true, frame.snapshot.program_revision = (std::uint64_t{1} << 53) + 1;
+  idl::stream::PathBatch batch, copy;
+  batch.first = 77;
+  batch.count = 2;
+  batch.setpoints.assign(18, 0.1);
+  batch.lines = {5, 6};
+  batch.states.push_back({idl::stream::Stage::KINEMATICS, 78, {1, 2, 3}});
+  batch.states.push_back({idl::stream::Stage::GANTRY, 78, {}});
+  batch.snapshot.valid = true, batch.snapshot.program_revision = (std::uint64_t{1} << 53) + 1;
   Bytes bytes;
-  encode(frame, bytes);
+  encode(batch, bytes);
   ASSERT_TRUE(decode(bytes, copy));
-  EXPECT_EQ(frame, copy);
+  EXPECT_EQ(batch, copy);
 }
 
 // What a process of another make may send: the bytes are a message of the type, and no field may have the
@@ -70,14 +70,14 @@ TEST(Cdr, RefusesValuesBeyondTheLimitsOfTheirFieldAndNamesIt) {
   EXPECT_EQ(refusal(request), "taken");
   request.channel = 32;
   EXPECT_EQ(refusal(request), "channel: 32, must be 0 to 31");
-  idl::stream::AxisFrame frame;
-  frame.count = 64, frame.axes = {0, 1};
-  frame.setpoints.assign(128, -1e300);
-  EXPECT_EQ(refusal(frame), "taken");
-  frame.count = 65;
-  EXPECT_EQ(refusal(frame), "count: 65, must be 0 to 64");
-  frame.count = 64, frame.setpoints[127] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(refusal(frame), "setpoints: not a finite number");
+  idl::stream::AxisBatch batch;
+  batch.count = 64, batch.axes = {0, 1};
+  batch.setpoints.assign(128, -1e300);
+  EXPECT_EQ(refusal(batch), "taken");
+  batch.count = 65;
+  EXPECT_EQ(refusal(batch), "count: 65, must be 0 to 64");
+  batch.count = 64, batch.setpoints[127] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refusal(batch), "setpoints: not a finite number");
   idl::channel::ChannelRequest order;
   order.speed = -std::numeric_limits<double>::infinity();
   EXPECT_EQ(refusal(order), "speed: not a finite number");
@@ -91,10 +91,10 @@ TEST(Cdr, RefusesValuesBeyondTheLimitsOfTheirFieldAndNamesIt) {
 }
 
 TEST(Cdr, RefusesASequenceBeyondItsBoundOnBothSides) {
-  idl::stream::PathFrame frame;
-  frame.lines.assign(65, 0);
+  idl::stream::PathBatch batch;
+  batch.lines.assign(65, 0);
   Bytes bytes;
-  EXPECT_THROW(encode(frame, bytes), CdrError);
+  EXPECT_THROW(encode(batch, bytes), CdrError);
 }
 
 TEST(Enumerators, HaveTheNamesOfTheIdlBothWays) {

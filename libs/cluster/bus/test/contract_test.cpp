@@ -55,11 +55,11 @@ TEST_F(Contract, ANewTopicOfOthersAndTheOrderOfTheTableChangeNothing) {
   EXPECT_NE(contract_of("plc", topics_), plc_);
 }
 
-// FNV-1a of "rows Rows_1 frame\nstate State_1 frame\n", computed beside this program:
+// FNV-1a of "rows Rows_1 batch\nstate State_1 batch\n", computed beside this program:
 // python3 -c "h=0xcbf29ce484222325
-// for c in b'rows Rows_1 frame\nstate State_1 frame\n': h=(h^c)*0x100000001b3%2**64
+// for c in b'rows Rows_1 batch\nstate State_1 batch\n': h=(h^c)*0x100000001b3%2**64
 // print('%016x'%h)"
-TEST_F(Contract, IsTheHashThatOthersCompute) { EXPECT_EQ(stage_, "f90c018d38fabc9b"); }
+TEST_F(Contract, IsTheHashThatOthersCompute) { EXPECT_EQ(stage_, "92c66362c655b453"); }
 
 TEST(Contracts, OfTheServicesAreAllDifferent) {
   std::vector<std::string> all;

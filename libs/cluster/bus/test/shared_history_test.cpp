@@ -102,17 +102,17 @@ TEST(SharedHistory, AnAddressThatIsNoneOrOfAnotherHostIsElsewhereAndAnOldOneIsGo
 class DiscoveryOverVendors : public testing::TestWithParam<std::tuple<Vendor, Vendor, std::uint32_t>> {};
 
 // How a recorder finds them: by what the DDS writer tells of itself.
-TEST_P(DiscoveryOverVendors, TellsOfEveryWriterWhatItIsWhereItsFramesAreAndWhichSamplesAreItsOwn) {
+TEST_P(DiscoveryOverVendors, TellsOfEveryWriterWhatItIsWhereItsBatchesAreAndWhichSamplesAreItsOwn) {
   const auto [from, to, domain] = GetParam();
   Bus a(from, {domain}), b(to, {domain});
-  auto shared = std::make_unique<Writer<idl::stream::AxisFrame>>(a.writer(topics::gantry_frame));
-  const auto plain = a.backend().writer(describe(topics::gantry_frame), {true, 16});
-  auto reader = b.reader(topics::gantry_frame);
+  auto shared = std::make_unique<Writer<idl::stream::AxisBatch>>(a.writer(topics::gantry_batch));
+  const auto plain = a.backend().writer(describe(topics::gantry_batch), {true, 16});
+  auto reader = b.reader(topics::gantry_batch);
   std::vector<DiscoveredWriter> writers;
   const auto discovered = [&](std::size_t count) {
     return eventually([&] {
       b.backend().discover(writers);
-      std::erase_if(writers, [](const auto& w) { return w.topic != topics::gantry_frame.name; });
+      std::erase_if(writers, [](const auto& w) { return w.topic != topics::gantry_batch.name; });
       return writers.size() == count;
     });
   };
@@ -120,13 +120,13 @@ TEST_P(DiscoveryOverVendors, TellsOfEveryWriterWhatItIsWhereItsFramesAreAndWhich
   EXPECT_FALSE(b.backend().discover(writers)) << "nothing has changed";
   if (writers[0].user_data.empty()) std::swap(writers[0], writers[1]);
   EXPECT_EQ(writers[1].user_data, "");
-  for (const auto& writer : writers) EXPECT_EQ(writer.wire_type, topics::gantry_frame.wire_type);
+  for (const auto& writer : writers) EXPECT_EQ(writer.wire_type, topics::gantry_batch.wire_type);
   ASSERT_TRUE(eventually([&] { return reader.matched() == 2; }));
 
-  idl::stream::AxisFrame frame;
-  frame.count = 1;
-  shared->write(frame);
-  ASSERT_TRUE(eventually([&] { return reader.take(frame); }));
+  idl::stream::AxisBatch batch;
+  batch.count = 1;
+  shared->write(batch);
+  ASSERT_TRUE(eventually([&] { return reader.take(batch); }));
   EXPECT_EQ(reader.info().writer, writers[0].id);
   const auto sent = reader.info().source_timestamp;
   auto found = SharedHistoryReader::find(writers[0].user_data);
@@ -134,12 +134,12 @@ TEST_P(DiscoveryOverVendors, TellsOfEveryWriterWhatItIsWhereItsFramesAreAndWhich
   Bytes bytes, expected;
   SampleInfo info;
   ASSERT_TRUE(found.reader->take(bytes, info));
-  encode(frame, expected);
+  encode(batch, expected);
   EXPECT_EQ(bytes, expected);
   EXPECT_EQ(info.source_timestamp, sent) << "in memory and by DDS it is the same message";
 
   plain->write(bytes);
-  ASSERT_TRUE(eventually([&] { return reader.take(frame); }));
+  ASSERT_TRUE(eventually([&] { return reader.take(batch); }));
   EXPECT_EQ(reader.info().writer, writers[1].id);
   EXPECT_FALSE(found.reader->take(bytes, info));
 
@@ -147,14 +147,14 @@ TEST_P(DiscoveryOverVendors, TellsOfEveryWriterWhatItIsWhereItsFramesAreAndWhich
   EXPECT_TRUE(discovered(1));
 }
 
-// On the wire it counts in 2^-32 s; a frame must be the same in memory and by DDS.
+// On the wire it counts in 2^-32 s; a batch must be the same in memory and by DDS.
 TEST_P(DiscoveryOverVendors, ATimeStampIsReadAsItWasWritten) {
   const auto [from, to, domain] = GetParam();
   Bus a(from, {domain + 4}), b(to, {domain + 4});
-  const auto writer = a.backend().writer(describe(topics::gantry_frame), {true, 2000});
-  auto reader = b.backend().reader(describe(topics::gantry_frame), {true, 0}, nullptr);
+  const auto writer = a.backend().writer(describe(topics::gantry_batch), {true, 2000});
+  auto reader = b.backend().reader(describe(topics::gantry_batch), {true, 0}, nullptr);
   Bytes bytes;
-  encode(idl::stream::AxisFrame{}, bytes);
+  encode(idl::stream::AxisBatch{}, bytes);
   // All over a second, on no grid, in their order.
   std::vector<std::int64_t> sent(1000);
   for (std::size_t k = 0; k < sent.size(); ++k)

@@ -39,7 +39,7 @@ TEST(WriterOrigin, OfAStrangerIsShortAndPrintable) {
   EXPECT_EQ(to_text(origin), "process 1?2 (?) on host " + std::string(40, 'h'));
 }
 
-// 250 characters of an alarm, less "compensation refused 4294967296 of trunnion/compensation/axis_frame/1
+// 250 characters of an alarm, less "compensation refused 4294967296 of trunnion/compensation/axis_batch/1
 // from " (75) and ", the newest: " (14), leave 161: the 120 of a writer and 41 for the field and its value.
 TEST(WriterOrigin, OfAStrangerLeavesRoomForTheFieldInAnAlarm) {
   const std::string lengthy(500, 'x');

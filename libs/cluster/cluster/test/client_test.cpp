@@ -20,15 +20,15 @@ bool is_ready(const std::future<std::uint64_t>& answer) {
 
 TEST(Client, GivesOfATopicWithHistoryWhatIsWrittenFromNowOn) {
   bus::Bus drive(bus::Vendor::cyclonedds, {client_domain});
-  auto writer = drive.writer(topics::feedback_frame);
-  idl::stream::FeedbackFrame frame;
-  for (frame.tick = 1; frame.tick <= 20; ++frame.tick) writer.write(frame);
+  auto writer = drive.writer(topics::feedback);
+  idl::stream::Feedback batch;
+  for (batch.tick = 1; batch.tick <= 20; ++batch.tick) writer.write(batch);
   Client client(bus::NetworkSettings{client_domain});
-  auto read = std::async(std::launch::async, [&] { return client.newest(topics::feedback_frame).tick; });
+  auto read = std::async(std::launch::async, [&] { return client.newest(topics::feedback).tick; });
   ASSERT_TRUE(eventually([&] { return writer.matched() == 1 || is_ready(read); }));
   ASSERT_TRUE(eventually([&] {
-    writer.write(frame);
-    ++frame.tick;
+    writer.write(batch);
+    ++batch.tick;
     return is_ready(read);
   }));
   EXPECT_GT(read.get(), 20u);

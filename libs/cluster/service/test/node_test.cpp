@@ -105,21 +105,21 @@ TEST(Node, TheAlarmOfARefusedMessageNamesTopicWriterAndField) {
   bus::NetworkSettings network{67};
   network.identity = "stranger";
   bus::Bus stranger(bus::Vendor::cyclonedds, network);
-  auto writer = stranger.writer(topics::gantry_frame);
-  auto reader = node.bus().reader(topics::gantry_frame);
+  auto writer = stranger.writer(topics::gantry_batch);
+  auto reader = node.bus().reader(topics::gantry_batch);
   auto alarms = node.bus().reader(topics::alarm);
-  idl::stream::AxisFrame frame;
-  frame.setpoints = {std::numeric_limits<double>::quiet_NaN()};
-  writer.write(frame);
+  idl::stream::AxisBatch batch;
+  batch.setpoints = {std::numeric_limits<double>::quiet_NaN()};
+  writer.write(batch);
   idl::service::Alarm alarm;
   service.on_pump = [&] {
-    while (reader.take(frame)) {
+    while (reader.take(batch)) {
     }
     const bool told = alarms.take(alarm) && alarm.number == alarm::message_refused.number;
     if (told || service.pumps > 4000) raise(SIGTERM);
   };
   EXPECT_EQ(node.run(service), 0);
-  EXPECT_EQ(alarm.text.find("drive refused 1 of " + std::string(topics::gantry_frame.name) +
+  EXPECT_EQ(alarm.text.find("drive refused 1 of " + std::string(topics::gantry_batch.name) +
                             " from process " + std::to_string(getpid()) + " ("),
             0u)
       << alarm.text;

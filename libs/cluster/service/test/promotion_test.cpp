@@ -32,7 +32,7 @@ struct Compared : Service {
 
 TEST(Standby, EndsWithAPromotionOfThisProcessAndNoOtherAndItsStateIsPublished) {
   Options options;
-  options.service = "program", options.instance = 10005, options.shadow = true;
+  options.service = "program", options.instance = 10005, options.standby = true;
   options.network.domain = domain;
   bus::Bus launcher(bus::Vendor::cyclonedds, {domain});
   auto promotions = launcher.writer(topics::promotion);

@@ -12,7 +12,7 @@ ServiceSnapshot head(std::uint64_t number) {
   head.pid = 77;
   head.number = number;
   head.time = 1000;
-  head.taken = {{"feedback_frame", 990}};
+  head.taken = {{"feedback", 990}};
   return head;
 }
 

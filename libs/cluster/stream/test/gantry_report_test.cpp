@@ -22,8 +22,8 @@ machine::Parameters gantry() {
 }
 
 // The slave is 0.25 mm ahead of where it belongs.
-idl::stream::FeedbackFrame feedback() {
-  idl::stream::FeedbackFrame f;
+idl::stream::Feedback feedback() {
+  idl::stream::Feedback f;
   f.axis_count = 3;
   f.mode = idl::stream::DriveMode::FOLLOWING;
   f.position = {0, 100, 100.75}, f.velocity = {0, 0, 0}, f.torque = {0, 0, 0}, f.enabled = {1, 1, 1};

@@ -21,14 +21,14 @@ machine::Parameters gantry() {
   return p;
 }
 
-idl::stream::FeedbackFrame feedback() {
-  idl::stream::FeedbackFrame f;
+idl::stream::Feedback feedback() {
+  idl::stream::Feedback f;
   f.axis_count = 3;
   f.position = {0, 100, 100.5}, f.velocity = {0, 0, 0}, f.torque = {0, 0, 0}, f.enabled = {1, 1, 1};
   return f;
 }
 
-std::vector<std::uint32_t> raised(const machine::Parameters& p, const idl::stream::FeedbackFrame& f,
+std::vector<std::uint32_t> raised(const machine::Parameters& p, const idl::stream::Feedback& f,
                                   double offset = 0) {
   const auto pair = machine::gantry_pairs(p).at(0);
   std::vector<std::uint32_t> numbers;

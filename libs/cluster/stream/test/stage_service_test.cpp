@@ -8,17 +8,17 @@
 namespace trunnion::stream {
 namespace {
 
-using idl::stream::AxisFrame;
-using idl::stream::PathFrame;
+using idl::stream::AxisBatch;
+using idl::stream::PathBatch;
 using testing_support::eventually;
 
 constexpr std::uint32_t stage_domain = 70;
 
 /// X as it is.
-class FirstColumn : public StageCore<PathFrame> {
+class FirstColumn : public StageCore<PathBatch> {
  public:
   void configure(const machine::Parameters&, std::uint16_t) override {}
-  bool process(const PathFrame& in, const FeedbackWindow&, AxisFrame& out) override {
+  bool process(const PathBatch& in, const FeedbackWindow&, AxisBatch& out) override {
     out.axes = {0};
     out.setpoints.clear();
     for (std::uint32_t i = 0; i < in.count; ++i) out.setpoints.push_back(in.setpoints[9 * i]);
@@ -28,8 +28,8 @@ class FirstColumn : public StageCore<PathFrame> {
   void save(StateValues& state) const override { state.clear(); }
 };
 
-PathFrame stage_input(std::uint32_t epoch, std::uint64_t first, std::uint64_t revision) {
-  PathFrame f;
+PathBatch stage_input(std::uint32_t epoch, std::uint64_t first, std::uint64_t revision) {
+  PathBatch f;
   f.epoch = epoch, f.first = first, f.count = 8, f.revision = revision, f.starts = true;
   f.setpoints.assign(72, 2), f.lines.assign(8, 1);
   return f;
@@ -41,10 +41,10 @@ struct StageBeforeTheDrive : testing::Test {
       : node(options()),
         outside(bus::Vendor::cyclonedds, {stage_domain}),
         parameters(outside.writer(topics::parameter_set)),
-        feedback(outside.writer(topics::feedback_frame)),
-        input(outside.writer(topics::path_frame)),
-        output(outside.reader(topics::kinematics_frame)),
-        stage(node, Stage::KINEMATICS, topics::path_frame, topics::kinematics_frame,
+        feedback(outside.writer(topics::feedback)),
+        input(outside.writer(topics::path_batch)),
+        output(outside.reader(topics::kinematics_batch)),
+        stage(node, Stage::KINEMATICS, topics::path_batch, topics::kinematics_batch,
               [] { return std::make_unique<FirstColumn>(); }) {
     idl::parameters::ParameterSet set;
     set.revision = 1;
@@ -60,11 +60,11 @@ struct StageBeforeTheDrive : testing::Test {
     return options;
   }
   void pump() {
-    idl::stream::FeedbackFrame frame;
-    frame.first = 100, frame.axis_count = 1, frame.position = {0};
-    frame.channels.resize(1);
-    frame.channels[0].epoch = drive_epoch, frame.channels[0].next = 100;
-    feedback.write(frame);
+    idl::stream::Feedback batch;
+    batch.first = 100, batch.axis_count = 1, batch.position = {0};
+    batch.channels.resize(1);
+    batch.channels[0].epoch = drive_epoch, batch.channels[0].next = 100;
+    feedback.write(batch);
     stage.pump();
   }
   template <class Condition>
@@ -75,20 +75,20 @@ struct StageBeforeTheDrive : testing::Test {
     });
   }
   bool is_computed(std::uint32_t epoch) {
-    AxisFrame frame;
-    while (output.take(frame))
-      if (frame.epoch == epoch) return true;
+    AxisBatch batch;
+    while (output.take(batch))
+      if (batch.epoch == epoch) return true;
     return false;
   }
 
   service::Node node;
   bus::Bus outside;
   bus::Writer<idl::parameters::ParameterSet> parameters;
-  bus::Writer<idl::stream::FeedbackFrame> feedback;
-  bus::Writer<PathFrame> input;
-  bus::Reader<AxisFrame> output;
+  bus::Writer<idl::stream::Feedback> feedback;
+  bus::Writer<PathBatch> input;
+  bus::Reader<AxisBatch> output;
   std::uint32_t drive_epoch = 3;
-  StageService<PathFrame> stage;
+  StageService<PathBatch> stage;
 };
 
 struct StageInACluster : StageBeforeTheDrive {
@@ -106,7 +106,7 @@ TEST_F(StageBeforeTheDrive, LeavesOutAMotionOfItsHistoryWhoseParametersAreGone) 
   input.write(stage_input(3, 40, 77));
   EXPECT_TRUE(eventually([&] {
     stage.pump();
-    return stage.health().frames_in == 1;
+    return stage.health().messages_in == 1;
   }));
   EXPECT_TRUE(until([&] { return stage.health().in_step && stage.health().detail.empty(); }))
       << stage.health().detail;
@@ -114,7 +114,7 @@ TEST_F(StageBeforeTheDrive, LeavesOutAMotionOfItsHistoryWhoseParametersAreGone) 
   EXPECT_TRUE(until([&] { return is_computed(4); }));
 }
 
-TEST_F(StageInACluster, GoesOnAfterFramesThatAreNotWholeOrOfNoChannel) {
+TEST_F(StageInACluster, GoesOnAfterBatchesThatAreNotWholeOrOfNoChannel) {
   auto hostile = stage_input(4, 100, 1);
   hostile.count = 0;
   input.write(hostile);
@@ -123,7 +123,7 @@ TEST_F(StageInACluster, GoesOnAfterFramesThatAreNotWholeOrOfNoChannel) {
   input.write(hostile);
   input.write(stage_input(4, 100, 1));
   EXPECT_TRUE(until([&] { return is_computed(4); }));
-  EXPECT_EQ(node.bus().refusals().at(topics::path_frame.name).count, 2u);
+  EXPECT_EQ(node.bus().refusals().at(topics::path_batch.name).count, 2u);
   EXPECT_TRUE(stage.health().in_step) << stage.health().detail;
 }
 

@@ -11,7 +11,7 @@
 
 #include "checked_compilation.hpp"
 #include "plc/library/register_names.hpp"
-#include "plc/tools/program_run.hpp"
+#include "plc/tools/source_run.hpp"
 #include "plcopen_documents.hpp"
 
 namespace trunnion::st {
@@ -94,7 +94,7 @@ class LoadedChart {
   }
 
   Compilation compilation;
-  ProgramRun run;
+  SourceRun run;
 };
 
 }  // namespace trunnion::st

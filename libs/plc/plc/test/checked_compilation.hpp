@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "plc/machine/verify.hpp"
-#include "plc/tools/program_run.hpp"
+#include "plc/tools/source_run.hpp"
 
 namespace trunnion::st {
 

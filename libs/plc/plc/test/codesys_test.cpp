@@ -28,7 +28,7 @@ class Export {
 
  private:
   Compilation compilation;
-  std::optional<ProgramRun> run;
+  std::optional<SourceRun> run;
 };
 
 // IEC 61131-3:2013, table 17: w.%X3 is w.3.

@@ -133,7 +133,7 @@ TEST(Configuration, IsTheSameInPlcopen) {
       "<globalVars><variable name=\"g\"><type><INT/></type></variable></globalVars>"
       "</resource></configuration>");
   const auto result = compile({{"c.xml", document}}, interface_registers());
-  ProgramRun run(checked(result));
+  SourceRun run(checked(result));
   for (int i = 0; i < 4; ++i) EXPECT_EQ(run.scan("").kind, FaultKind::none);  // 0, 10, 20, 30 ms
   EXPECT_EQ(run.get("q.total"), "4");
   EXPECT_EQ(run.get("s.total"), "2");

@@ -6,7 +6,7 @@
 
 #include "plc/compile.hpp"
 #include "plc/library/register_names.hpp"
-#include "plc/tools/program_run.hpp"
+#include "plc/tools/source_run.hpp"
 
 namespace trunnion::st {
 namespace {

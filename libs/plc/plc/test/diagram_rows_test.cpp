@@ -24,7 +24,7 @@ class Drawn {
   std::string get(const std::string& path) { return run.get(path); }
 
   Compilation compilation;
-  ProgramRun run;
+  SourceRun run;
 };
 
 std::string main_of(const DiagramText& body, const Pairs& list) {

@@ -36,7 +36,7 @@ class ListRun {
   const Compilation compilation;
 
  private:
-  ProgramRun run_;
+  SourceRun run_;
   std::int64_t now_ = 0;
 };
 

@@ -70,7 +70,7 @@ TEST(LadderFunctions, AreInstructionsToo) {
                                     "CAL DISAS(2, %Y10, %W50)</xhtml></IL>"));
   const auto result = compile({{"l.xml", document}}, interface_registers());
   ASSERT_TRUE(result.good()) << testing::PrintToString(result.lines());
-  ProgramRun run(result);
+  SourceRun run(result);
   run.set("%X9.0", "TRUE");
   EXPECT_EQ(run.scan("").kind, FaultKind::none);
   EXPECT_EQ(run.get("%Y10"), "2");

@@ -6,7 +6,7 @@
 
 #include "checked_compilation.hpp"
 #include "plc/library/register_names.hpp"
-#include "plc/tools/program_run.hpp"
+#include "plc/tools/source_run.hpp"
 #include "plcopen_documents.hpp"
 
 namespace trunnion::st {
@@ -27,7 +27,7 @@ class Loaded {
   void set(const std::string& path, const std::string& value) { run.set(path, value); }
 
   Compilation compilation;
-  ProgramRun run;
+  SourceRun run;
 };
 
 std::vector<std::string> messages(const std::string& xml) {
@@ -301,7 +301,7 @@ TEST(Plcopen, AnEndlessLoopEndsWithAFaultAtItsPlace) {
   d.y = 2, d.add("jump", "label=\"x\"", {d.rail()}, "");
   const auto compilation = compile({{"logic.xml", ladder(d)}}, interface_registers());
   ASSERT_TRUE(compilation.good()) << testing::PrintToString(compilation.lines());
-  ProgramRun run(compilation);
+  SourceRun run(compilation);
   EXPECT_EQ(run.scan("").kind, FaultKind::budget);
 }
 

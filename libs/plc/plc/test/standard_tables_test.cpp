@@ -98,7 +98,7 @@ std::vector<StandardRow> standard_rows() {
   return all;
 }
 
-std::string value_of(const ProgramRun& run, const std::string& path) {
+std::string value_of(const SourceRun& run, const std::string& path) {
   try {
     return run.get(path);
   } catch (const std::runtime_error& e) {
@@ -149,7 +149,7 @@ TEST(StandardTables, EveryAvailableRowGivesItsValues) {
     const auto compilation = compile({{row.file, row.source}}, interface_registers());
     EXPECT_TRUE(compilation.good()) << testing::PrintToString(compilation.lines());
     if (!compilation.good()) continue;
-    ProgramRun run(checked(compilation));
+    SourceRun run(checked(compilation));
     for (int i = 0; i < row.scans; ++i) {
       const auto fault = run.scan("");
       EXPECT_EQ(fault.kind, FaultKind::none) << fault_line(compilation, run.machine(), fault);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "plc/library/register_names.hpp"
-#include "plc/tools/program_run.hpp"
+#include "plc/tools/source_run.hpp"
 
 namespace trunnion::st {
 
@@ -28,7 +28,7 @@ class Translated {
   void set(const std::string& path, const std::string& value) { run.set(path, value); }
 
   Compilation compilation;
-  ProgramRun run;
+  SourceRun run;
 
  private:
   static const Compilation& checked(const Compilation& compilation) {

@@ -45,7 +45,7 @@ TEST(CycleCoverage, ARecordingThatCameLateDoesNotBeginAtAStart) {
   EXPECT_TRUE(c.begins_at_a_start());
 }
 
-TEST(CycleCoverage, CopiesRepeatAndLateFramesFillTheirGap) {
+TEST(CycleCoverage, CopiesRepeatAndLateBatchesFillTheirGap) {
   CycleCoverage c;
   c.add(0, 8, true, false);
   c.add(0, 8, true, false);
@@ -58,18 +58,18 @@ TEST(CycleCoverage, CopiesRepeatAndLateFramesFillTheirGap) {
   EXPECT_EQ(c.covered(), 24u);
 }
 
-// Whatever the order, and with frames of two replicas cut differently, the union is what counts.
+// Whatever the order, and with batches of two replicas cut differently, the union is what counts.
 TEST(CycleCoverage, OrderAndOverlapDoNotMatter) {
   std::mt19937 random(7);
   for (int round = 0; round < 200; ++round) {
     std::vector<bool> there(400);
-    struct Frame {
+    struct Batch {
       std::uint64_t first, count;
     };
-    std::vector<Frame> frames;
-    for (int i = 0; i < 60; ++i) frames.push_back({random() % 380, 1 + random() % 20});
+    std::vector<Batch> batches;
+    for (int i = 0; i < 60; ++i) batches.push_back({random() % 380, 1 + random() % 20});
     CycleCoverage c;
-    for (const auto& f : frames) {
+    for (const auto& f : batches) {
       c.add(f.first, f.count, false, false);
       std::fill_n(there.begin() + static_cast<std::ptrdiff_t>(f.first), f.count, true);
     }

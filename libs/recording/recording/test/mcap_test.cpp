@@ -42,7 +42,7 @@ Bytes written(const std::vector<Message>& messages, std::size_t chunk_bytes,
   Writer writer(sink, {.library = "test", .chunk_bytes = chunk_bytes, .compression = compression});
   for (int c = 0; c < 3; ++c)
     writer.add_channel("topic " + std::to_string(c), c == 2 ? "B" : "A",
-                       c == 2 ? "struct B {};" : "struct A {};", {{"qos", "frame"}});
+                       c == 2 ? "struct B {};" : "struct A {};", {{"qos", "batch"}});
   writer.metadata("trunnion", {{"machine", "test"}, {"domain", "7"}});
   for (const auto& m : messages)
     EXPECT_TRUE(writer.write(static_cast<std::uint16_t>(m.topic.back() - '0'), m.sequence, m.time, m.data));
@@ -111,7 +111,7 @@ TEST(Mcap, CarriesTypesTopicsAndMetadata) {
   MessageView view;
   ASSERT_TRUE(reader.next(view));
   EXPECT_EQ(view.channel->encoding, "cdr");
-  EXPECT_EQ(view.channel->metadata, (StringMap{{"qos", "frame"}}));
+  EXPECT_EQ(view.channel->metadata, (StringMap{{"qos", "batch"}}));
   ASSERT_EQ(reader.metadata().size(), 1u);
   EXPECT_EQ(reader.metadata()[0].name, "trunnion");
   EXPECT_EQ(reader.metadata()[0].values, (StringMap{{"machine", "test"}, {"domain", "7"}}));

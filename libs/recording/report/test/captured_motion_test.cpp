@@ -24,7 +24,7 @@ TEST(CapturedMotion, HasCommandAndFeedbackOfEveryAxis) {
   const auto motion = motion_of_recording(run.file, 0, parameters);
   const auto refused = testing_support::refusal_of([&] { motion_of_recording(run.file, 1, parameters); });
   std::filesystem::remove(run.file);
-  EXPECT_EQ(refused, run.file + ": no motion of channel 1: record the topics path_frame and feedback_frame");
+  EXPECT_EQ(refused, run.file + ": no motion of channel 1: record the topics path_batch and feedback");
   EXPECT_FALSE(parameters.values.empty());
   EXPECT_NEAR(motion.interval, 0.001, 1e-12);
   ASSERT_GT(motion.count, 900u);

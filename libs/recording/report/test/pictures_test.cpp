@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pictures of measurements draw: how many curves, where a value is in its frame.
+// What the pictures of measurements draw: how many curves, where a value is in its batch.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

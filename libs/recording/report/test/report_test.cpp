@@ -133,27 +133,27 @@ TEST_F(ReportOfARun, OneBadCycleIsTheLargestAndIsNamed) {
   EXPECT_EQ(r.actual_feed.line, 3u);
 }
 
-TEST_F(ReportOfARun, MissingFramesAreLostCycles) {
-  run.skipped_frame = 20;
+TEST_F(ReportOfARun, MissingBatchesAreLostCycles) {
+  run.skipped_batch = 20;
   const auto r = report();
-  EXPECT_EQ(r.lost.at("gantry_frame"), test::frame_cycles);
-  EXPECT_EQ(r.lost.at("path_frame"), 0u);
-  EXPECT_EQ(r.lost.at("feedback_frame"), 0u);
-  EXPECT_EQ(r.residual_cycles, cycles - test::frame_cycles);
+  EXPECT_EQ(r.lost.at("gantry_batch"), test::batch_cycles);
+  EXPECT_EQ(r.lost.at("path_batch"), 0u);
+  EXPECT_EQ(r.lost.at("feedback"), 0u);
+  EXPECT_EQ(r.residual_cycles, cycles - test::batch_cycles);
 }
 
 TEST_F(ReportOfARun, ALateRecordingIsAProblem) {
-  run.late_frames = 5;
+  run.late_batches = 5;
   const auto r = report();
   EXPECT_EQ(r.problem, "the recording starts after the start of the motion");
-  EXPECT_EQ(r.cycles, cycles - 5 * test::frame_cycles);
+  EXPECT_EQ(r.cycles, cycles - 5 * test::batch_cycles);
 }
 
 TEST_F(ReportOfARun, CopiesOfTwinsAreNeitherLostNorCountedTwice) {
   run.replicas = true;
   const auto r = report();
-  EXPECT_EQ(r.lost.at("kinematics_frame"), 0u);
-  EXPECT_EQ(r.repeated_frames, (cycles + test::frame_cycles - 1) / test::frame_cycles);
+  EXPECT_EQ(r.lost.at("kinematics_batch"), 0u);
+  EXPECT_EQ(r.repeated_batches, (cycles + test::batch_cycles - 1) / test::batch_cycles);
   EXPECT_EQ(r.cycles, cycles);
 }
 
@@ -166,7 +166,7 @@ TEST_F(ReportOfARun, LatenciesAndSpeedComeFromTheTimeStamps) {
     EXPECT_NEAR(r.latencies[i].largest, r.latencies[i].median, 1e-12);
   }
   EXPECT_EQ(r.latencies[3].to, "drive feedback");
-  // Eight cycles of 1 ms every 2 ms; the last frame may hold fewer.
+  // Eight cycles of 1 ms every 2 ms; the last batch may hold fewer.
   EXPECT_NEAR(r.speed, 4, 0.05);
 }
 

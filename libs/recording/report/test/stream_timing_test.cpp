@@ -24,17 +24,17 @@ struct Motion {
     std::uint64_t first = 100;
     for (std::uint64_t i = 0; i < batches; ++i, first += batch) {
       capture.feedback.push_back({first, batch, first + batch, end_of(first + batch - 1)});
-      FrameTimes times;
+      BatchTimes times;
       times.last_cycle = first + batch - 1;
       times.starts = i == 0;
       // The feedback that allows this batch: executed up to last + 1 - lead.
       const auto allowed = end_of(times.last_cycle - lead);
       for (std::size_t stage = 0; stage < times.written.size(); ++stage)
         times.written[stage] = allowed + 100 * us + static_cast<std::int64_t>(stage) * 50 * us;
-      capture.frames[{1, first}] = times;
+      capture.batches[{1, first}] = times;
     }
   }
-  FrameTimes& frame(std::uint64_t number) { return capture.frames.at({1, 100 + number * batch}); }
+  BatchTimes& times_of(std::uint64_t number) { return capture.batches.at({1, 100 + number * batch}); }
 };
 
 const Delays& process(const StreamTiming& timing, const std::string& name) {
@@ -60,7 +60,7 @@ TEST(StreamTiming, GivesTheDelayOfEveryProcessAndOfTheWholeStream) {
 
 TEST(StreamTiming, OneLateStageDeterminesTheLead) {
   Motion motion;
-  auto& late = motion.frame(500);
+  auto& late = motion.times_of(500);
   for (std::size_t stage = 1; stage < late.written.size(); ++stage) late.written[stage] += 8000 * us;
   StreamTiming timing(lead, period);
   timing.add(motion.capture);
@@ -89,7 +89,7 @@ TEST(StreamTiming, RecordingsAddUpAndTheTextNamesUnitsAndTheLead) {
   EXPECT_EQ(timing.usable_lead(), 0u) << "nothing was measured";
   Motion motion;
   motion.capture.starved = 3;
-  motion.capture.lost["gantry_frame"] = 4;
+  motion.capture.lost["gantry_batch"] = 4;
   timing.add(motion.capture);
   timing.add(motion.capture);
   EXPECT_EQ(timing.starved(), 6u);
@@ -101,7 +101,7 @@ TEST(StreamTiming, RecordingsAddUpAndTheTextNamesUnitsAndTheLead) {
   EXPECT_NE(text.find("lead (000900) of 8 cycles"), std::string::npos);
   const auto json = bus::Json::parse(json_text(timing));
   EXPECT_EQ(json.at("usable_lead_cycles"), 8);
-  EXPECT_EQ(json.at("processes").size(), frame_stages.size() + 2);
+  EXPECT_EQ(json.at("processes").size(), batch_stages.size() + 2);
 }
 
 }  // namespace

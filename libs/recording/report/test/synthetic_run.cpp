@@ -147,9 +147,9 @@ std::uint64_t record_run(const RunOptions& options) {
   file.write(topics::work_offsets, tables.offsets, start_time - 1);
 
   std::uint64_t cycle = first_cycle;
-  int frame_number = 0;
-  for (std::size_t i = 0; i < rows.size(); ++frame_number) {
-    idl::stream::PathFrame path;
+  int batch_number = 0;
+  for (std::size_t i = 0; i < rows.size(); ++batch_number) {
+    idl::stream::PathBatch path;
     path.epoch = 1;
     path.first = cycle;
     path.revision = 1;
@@ -157,15 +157,15 @@ std::uint64_t record_run(const RunOptions& options) {
     path.transformation =
         rows[i].rtcp ? idl::stream::Transformation::RTCP : idl::stream::Transformation::NO_TRANSFORMATION;
     path.tool_length = rows[i].tool_length;
-    idl::stream::AxisFrame joints;
-    idl::stream::FeedbackFrame feedback;
+    idl::stream::AxisBatch joints;
+    idl::stream::Feedback feedback;
     joints.epoch = 1;
     joints.first = feedback.first = cycle;
     joints.starts = path.starts;
     joints.axes = axes.number;
     feedback.axis_count = 5;
     const bool rtcp = rows[i].rtcp;
-    for (; path.count < frame_cycles && i < rows.size() && rows[i].rtcp == rtcp; ++i, ++path.count, ++cycle) {
+    for (; path.count < batch_cycles && i < rows.size() && rows[i].rtcp == rtcp; ++i, ++path.count, ++cycle) {
       AxisValues p = rows[i].position;
       path.setpoints.insert(path.setpoints.end(), p.begin(), p.end());
       path.lines.push_back(rows[i].line);
@@ -184,23 +184,23 @@ std::uint64_t record_run(const RunOptions& options) {
     path.ends = joints.ends = i == rows.size();
     joints.count = feedback.count = path.count;
     joints.lines = path.lines;
-    std::int64_t time = start_time + frame_number * frame_interval;
-    if (frame_number >= options.late_frames) file.write(topics::path_frame, path, time);
+    std::int64_t time = start_time + batch_number * batch_interval;
+    if (batch_number >= options.late_batches) file.write(topics::path_batch, path, time);
     using idl::stream::Stage;
     for (const auto stage : {Stage::KINEMATICS, Stage::COMPENSATION, Stage::GANTRY}) {
       joints.stage = stage;
       time += stage_latency[static_cast<int>(stage) - static_cast<int>(Stage::KINEMATICS)];
-      if (stage == Stage::KINEMATICS) file.write(topics::kinematics_frame, joints, time);
+      if (stage == Stage::KINEMATICS) file.write(topics::kinematics_batch, joints, time);
       if (stage == Stage::KINEMATICS && options.replicas) {
         joints.replica = 1;
-        file.write(topics::kinematics_frame, joints, time + 500);
+        file.write(topics::kinematics_batch, joints, time + 500);
         joints.replica = 0;
       }
-      if (stage == Stage::COMPENSATION) file.write(topics::compensation_frame, joints, time);
-      if (stage == Stage::GANTRY && frame_number != options.skipped_frame)
-        file.write(topics::gantry_frame, joints, time);
+      if (stage == Stage::COMPENSATION) file.write(topics::compensation_batch, joints, time);
+      if (stage == Stage::GANTRY && batch_number != options.skipped_batch)
+        file.write(topics::gantry_batch, joints, time);
     }
-    file.write(topics::feedback_frame, feedback, time + stage_latency[3]);
+    file.write(topics::feedback, feedback, time + stage_latency[3]);
   }
   file.finish(!options.cut_off);
   return cycle - first_cycle;

@@ -23,15 +23,15 @@ struct RunOptions {
   /// Changes the setpoints of the axes as compensation does, mm and deg; the encoders follow.
   std::function<void(std::uint64_t n, std::array<double, 5>& axes)> compensation;
   std::array<double, 5> play{};  ///< 10a910 of X Y Z A C, mm and deg
-  int skipped_frame = -1;        ///< this gantry frame is left out of the recording
-  int late_frames = 0;           ///< the recording begins so many path frames late
-  bool replicas = false;         ///< every kinematics frame comes twice
+  int skipped_batch = -1;        ///< this gantry batch is left out of the recording
+  int late_batches = 0;          ///< the recording begins so many path batches late
+  bool replicas = false;         ///< every kinematics batch comes twice
   bool cut_off = false;          ///< the file ends without a summary
 };
 
-inline constexpr std::uint64_t first_cycle = 1000, frame_cycles = 8;
+inline constexpr std::uint64_t first_cycle = 1000, batch_cycles = 8;
 inline constexpr std::int64_t start_time = 1'700'000'000'000'000'000;  // ns
-inline constexpr std::int64_t frame_interval = 2'000'000;              // ns: four times as fast as real time
+inline constexpr std::int64_t batch_interval = 2'000'000;              // ns: four times as fast as real time
 inline constexpr std::int64_t stage_latency[] = {10'000, 20'000, 30'000,
                                                  40'000};  // ns, the last to the feedback
 

@@ -12,7 +12,7 @@ namespace {
 using idl::channel::CommandKind;
 using idl::channel::RunState;
 
-// A life with runs of a program: each has 4 frames of 8 cycles and two functions.
+// A life with runs of a program: each has 4 batches of 8 cycles and two functions.
 class Alignment : public testing::Test {
  protected:
   template <class T>
@@ -39,17 +39,17 @@ class Alignment : public testing::Test {
     write(topics::auxiliary_done, {0, function_, false});
   }
   // Moves from `cycle` on; the setpoints are those of the run's own cycles, plus `off` in the last.
-  std::uint64_t motion(std::uint64_t cycle, int frames, double off = 0) {
-    for (int i = 0; i < frames; ++i) {
-      auto frame = path_frame(static_cast<std::uint64_t>(i) * frame_cycles, i == 0, i + 1 == frames);
-      frame.first = cycle + static_cast<std::uint64_t>(i) * frame_cycles;
-      frame.snapshot.valid = true;
-      frame.snapshot.cycle = frame.first + frame_cycles - 1;
-      frame.revision = cycle;
-      if (i + 1 == frames) frame.setpoints.back() += off;
-      write(topics::path_frame, frame);
+  std::uint64_t motion(std::uint64_t cycle, int batches, double off = 0) {
+    for (int i = 0; i < batches; ++i) {
+      auto batch = path_batch(static_cast<std::uint64_t>(i) * batch_cycles, i == 0, i + 1 == batches);
+      batch.first = cycle + static_cast<std::uint64_t>(i) * batch_cycles;
+      batch.snapshot.valid = true;
+      batch.snapshot.cycle = batch.first + batch_cycles - 1;
+      batch.revision = cycle;
+      if (i + 1 == batches) batch.setpoints.back() += off;
+      write(topics::path_batch, batch);
     }
-    return cycle + static_cast<std::uint64_t>(frames) * frame_cycles;
+    return cycle + static_cast<std::uint64_t>(batches) * batch_cycles;
   }
   std::uint64_t run(std::uint64_t cycle, double off = 0) {
     state(RunState::IDLE, cycle);
@@ -78,7 +78,7 @@ TEST_F(Alignment, TwoRunsInOneLifeCompareFromTheirStarts) {
   run(cycle);
   const auto d = between(1, 2);
   EXPECT_TRUE(d.equal()) << text_of(d, "first", "second");
-  EXPECT_EQ(d.cycles, 32u) << "4 frames of 8 cycles";
+  EXPECT_EQ(d.cycles, 32u) << "4 batches of 8 cycles";
   ASSERT_EQ(d.topics.size(), 3u);
   EXPECT_EQ(d.topics[1].compared, 2u) << "functions";
 }

@@ -16,7 +16,7 @@ bool seen(const std::vector<Feature>& features, const std::string& name) {
   return false;
 }
 
-// One frame of compensation, made with a parameter set in which axis 1 has a backlash table or none.
+// One batch of compensation, made with a parameter set in which axis 1 has a backlash table or none.
 std::vector<Feature> compensated(double backlash_type, double off) {
   idl::parameters::ParameterSet set;
   set.revision = 1;
@@ -27,12 +27,12 @@ std::vector<Feature> compensated(double backlash_type, double off) {
                 {parameter::backlash_type.number(1), backlash_type, ""}};
   std::sort(set.values.begin(), set.values.end(),
             [](const auto& a, const auto& b) { return a.number < b.number; });
-  auto frame = axis_frame(0, true, true);
+  auto batch = axis_batch(0, true, true);
   StoredRecording recording;
-  recording.messages = {stored(topics::parameter_set, set, 1), stored(topics::kinematics_frame, frame, 2)};
-  frame.stage = idl::stream::Stage::COMPENSATION;
-  frame.setpoints.back() += off;
-  const auto output = stored(topics::compensation_frame, frame, 3);
+  recording.messages = {stored(topics::parameter_set, set, 1), stored(topics::kinematics_batch, batch, 2)};
+  batch.stage = idl::stream::Stage::COMPENSATION;
+  batch.setpoints.back() += off;
+  const auto output = stored(topics::compensation_batch, batch, 3);
   recording.messages.push_back(output);
   return coverage_of("compensation", {output}, recording);
 }

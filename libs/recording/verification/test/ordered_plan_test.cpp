@@ -18,11 +18,11 @@ TEST(OrderedPlan, FeedsEachInputOnceTheServiceHasWrittenWhatItHadWrittenBefore) 
       stored(topics::auxiliary_request,
              idl::channel::AuxiliaryRequest{0, 4097, idl::channel::AuxiliaryKind::NO_AUXILIARY, 3, 0, 0}, 20),
       stored(topics::auxiliary_done, idl::plc::AuxiliaryDone{0, 4098, false}, 30),
-      stored(topics::feedback_frame, feedback_frame(0, 8), 5),
+      stored(topics::feedback, feedback(0, 8), 5),
   };
   const auto plan = plan_verification(recording, "channel", 0);
   ASSERT_EQ(plan.steps.size(), 4u);
-  EXPECT_EQ(plan.steps[1].message->topic->handle, "feedback_frame") << "by the time of writing";
+  EXPECT_EQ(plan.steps[1].message->topic->handle, "feedback") << "by the time of writing";
   EXPECT_TRUE(plan.steps[2].needs.empty());
   ASSERT_EQ(plan.steps[3].needs.size(), 1u);
   EXPECT_EQ(plan.steps[3].needs[0].place, (Place{4097, 1})) << "its request has to be there first";
@@ -31,15 +31,15 @@ TEST(OrderedPlan, FeedsEachInputOnceTheServiceHasWrittenWhatItHadWrittenBefore) 
 
 TEST(OrderedPlan, NamesTheFirstCyclesOfTheFeedbackThatTheRecorderHasLost) {
   StoredRecording recording;
-  recording.messages = {parameters(1, 1), stored(topics::path_frame, path_frame(0, true, true), 3),
-                        stored(topics::feedback_frame, feedback_frame(0, 8), 5),
-                        stored(topics::feedback_frame, feedback_frame(8, 0), 6),
-                        stored(topics::feedback_frame, feedback_frame(8, 8), 7)};
+  recording.messages = {parameters(1, 1), stored(topics::path_batch, path_batch(0, true, true), 3),
+                        stored(topics::feedback, feedback(0, 8), 5),
+                        stored(topics::feedback, feedback(8, 0), 6),
+                        stored(topics::feedback, feedback(8, 8), 7)};
   EXPECT_EQ(missing_feedback(plan_verification(recording, "channel", 0)), "");
-  recording.messages.push_back(stored(topics::feedback_frame, feedback_frame(40, 8), 8));
-  recording.messages.push_back(stored(topics::feedback_frame, feedback_frame(64, 8), 9));
+  recording.messages.push_back(stored(topics::feedback, feedback(40, 8), 8));
+  recording.messages.push_back(stored(topics::feedback, feedback(64, 8), 9));
   EXPECT_EQ(missing_feedback(plan_verification(recording, "channel", 0)),
-            "the recording misses cycles 16 to 39 of feedback_frame");
+            "the recording misses cycles 16 to 39 of feedback");
 }
 
 TEST(OrderedPlan, NamesTheRequestThatTheRecorderHasLost) {
@@ -64,9 +64,9 @@ TEST(OrderedPlan, NamesTheRequestThatTheRecorderHasLost) {
 
 TEST(OrderedPlan, AChannelIsFedAndComparedWithItsOwn) {
   auto recording = sample_recording(5);
-  auto other = path_frame(0, true, true);
+  auto other = path_batch(0, true, true);
   other.channel = 1;
-  recording.messages.push_back(stored(topics::path_frame, other, 5000));
+  recording.messages.push_back(stored(topics::path_batch, other, 5000));
   EXPECT_EQ(plan_verification(recording, "channel", 0).cycles, 40u);
   const auto plan = plan_verification(recording, "channel", 1);
   EXPECT_EQ(plan.cycles, 8u);
@@ -86,7 +86,7 @@ TEST(OrderedPlan, OutputsThatOthersReplacedBeforeTheChannelReadThemAreNotFed) {
   StoredRecording recording;
   recording.messages = {
       parameters(1, 1),
-      stored(topics::feedback_frame, feedback_frame(0, 8), 5),
+      stored(topics::feedback, feedback(0, 8), 5),
       stored(topics::plc_outputs, outputs(false), 10),  // the first: there is nothing to differ from
       stored(topics::plc_outputs, outputs(true), 20),   // replaced by the next, which changes nothing
       stored(topics::plc_outputs, outputs(false), 21),

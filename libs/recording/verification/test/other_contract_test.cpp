@@ -17,12 +17,12 @@ TEST(OtherContract, IsRefusedWithTheVersionWhereTheServiceUsesTheTopic) {
     recording.foreign = {topic};
     return testing_support::refusal_of([&] { require_contract(recording, service); });
   };
-  EXPECT_EQ(refusal("gantry_frame", "drive"),
+  EXPECT_EQ(refusal("gantry_batch", "drive"),
             std::string("the recording is of version 0.2.0, contract 0123456789abcdef: service drive uses "
-                        "gantry_frame, which has another form in this version (contract ") +
+                        "gantry_batch, which has another form in this version (contract ") +
                 topics::contract_hash + "); verify it with the services of that version");
-  EXPECT_NE(refusal("gantry_frame", "gantry"), "taken") << "its output is compared";
-  EXPECT_EQ(refusal("gantry_frame", "kinematics"), "taken");
+  EXPECT_NE(refusal("gantry_batch", "gantry"), "taken") << "its output is compared";
+  EXPECT_EQ(refusal("gantry_batch", "kinematics"), "taken");
   EXPECT_NE(refusal("alarm_reset", "kinematics"), "taken") << "every service reads it";
   EXPECT_EQ(refusal("snapshot_request", "kinematics"), "taken") << "it is for the recorder";
   for (const std::string always : {"cluster", "parameter_set", "service_snapshot"})

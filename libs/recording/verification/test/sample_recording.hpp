@@ -12,7 +12,7 @@
 namespace trunnion::verification {
 
 constexpr std::uint64_t lead = 32;         // the catalogue's default
-constexpr std::uint32_t frame_cycles = 8;  // cycles in a frame
+constexpr std::uint32_t batch_cycles = 8;  // cycles in a batch
 
 template <class T>
 StoredMessage stored(const bus::Topic<T>& topic, const T& value, std::uint64_t time) {
@@ -21,71 +21,70 @@ StoredMessage stored(const bus::Topic<T>& topic, const T& value, std::uint64_t t
   return message;
 }
 
-inline idl::stream::PathFrame path_frame(std::uint64_t first, bool starts, bool ends,
+inline idl::stream::PathBatch path_batch(std::uint64_t first, bool starts, bool ends,
                                          std::uint32_t epoch = 1) {
-  idl::stream::PathFrame frame;
-  frame.epoch = epoch;
-  frame.first = first;
-  frame.count = frame_cycles;
-  frame.revision = 1;
-  frame.starts = starts;
-  frame.ends = ends;
-  for (std::uint64_t c = first; c < first + frame_cycles; ++c)
-    for (int axis = 0; axis < 9; ++axis) frame.setpoints.push_back(static_cast<double>(c) + axis * 0.1);
-  frame.lines.assign(frame_cycles, 7);
-  return frame;
+  idl::stream::PathBatch batch;
+  batch.epoch = epoch;
+  batch.first = first;
+  batch.count = batch_cycles;
+  batch.revision = 1;
+  batch.starts = starts;
+  batch.ends = ends;
+  for (std::uint64_t c = first; c < first + batch_cycles; ++c)
+    for (int axis = 0; axis < 9; ++axis) batch.setpoints.push_back(static_cast<double>(c) + axis * 0.1);
+  batch.lines.assign(batch_cycles, 7);
+  return batch;
 }
 
-inline idl::stream::AxisFrame axis_frame(std::uint64_t first, bool starts, bool ends,
+inline idl::stream::AxisBatch axis_batch(std::uint64_t first, bool starts, bool ends,
                                          std::uint32_t epoch = 1) {
-  idl::stream::AxisFrame frame;
-  frame.stage = idl::stream::Stage::KINEMATICS;
-  frame.epoch = epoch;
-  frame.first = first;
-  frame.count = frame_cycles;
-  frame.revision = 1;
-  frame.starts = starts;
-  frame.ends = ends;
-  frame.axes = {0, 1};
-  for (std::uint64_t c = first; c < first + frame_cycles; ++c)
-    for (int axis = 0; axis < 2; ++axis) frame.setpoints.push_back(static_cast<double>(c) + axis * 0.1);
-  frame.lines.assign(frame_cycles, 7);
-  frame.states = {{idl::stream::Stage::KINEMATICS, first + frame_cycles - 1, {static_cast<double>(first)}}};
-  return frame;
+  idl::stream::AxisBatch batch;
+  batch.stage = idl::stream::Stage::KINEMATICS;
+  batch.epoch = epoch;
+  batch.first = first;
+  batch.count = batch_cycles;
+  batch.revision = 1;
+  batch.starts = starts;
+  batch.ends = ends;
+  batch.axes = {0, 1};
+  for (std::uint64_t c = first; c < first + batch_cycles; ++c)
+    for (int axis = 0; axis < 2; ++axis) batch.setpoints.push_back(static_cast<double>(c) + axis * 0.1);
+  batch.lines.assign(batch_cycles, 7);
+  batch.states = {{idl::stream::Stage::KINEMATICS, first + batch_cycles - 1, {static_cast<double>(first)}}};
+  return batch;
 }
 
-inline idl::stream::FeedbackFrame feedback_frame(std::uint64_t first, std::uint32_t count) {
-  idl::stream::FeedbackFrame frame;
-  frame.first = first;
-  frame.count = count;
-  frame.tick = first + count;
-  frame.axis_count = 2;
-  frame.commanded.assign(std::size_t{count} * 2, 1.0);
-  frame.actual.assign(std::size_t{count} * 2, 0.5);
-  return frame;
+inline idl::stream::Feedback feedback(std::uint64_t first, std::uint32_t count) {
+  idl::stream::Feedback batch;
+  batch.first = first;
+  batch.count = count;
+  batch.tick = first + count;
+  batch.axis_count = 2;
+  batch.commanded.assign(std::size_t{count} * 2, 1.0);
+  batch.actual.assign(std::size_t{count} * 2, 0.5);
+  return batch;
 }
 
-/// Appends one motion of `frames` frames from `first` on: every frame once the drive has executed what its
+/// Appends one motion of `batches` batches from `first` on: every batch once the drive has executed what its
 /// credit needs, its output one time unit later.
-inline void add_motion(StoredRecording& recording, std::uint64_t first, int frames, std::uint32_t epoch = 1) {
+inline void add_motion(StoredRecording& recording, std::uint64_t first, int batches,
+                       std::uint32_t epoch = 1) {
   std::uint64_t time = recording.messages.empty() ? 1000 : recording.messages.back().time + 10;
   std::uint64_t executed = first;
-  for (int i = 0; i < frames; ++i) {
-    const std::uint64_t at = first + static_cast<std::uint64_t>(i) * frame_cycles;
-    while (executed + lead < at + frame_cycles) {
-      recording.messages.push_back(
-          stored(topics::feedback_frame, feedback_frame(executed, frame_cycles), time += 10));
-      executed += frame_cycles;
+  for (int i = 0; i < batches; ++i) {
+    const std::uint64_t at = first + static_cast<std::uint64_t>(i) * batch_cycles;
+    while (executed + lead < at + batch_cycles) {
+      recording.messages.push_back(stored(topics::feedback, feedback(executed, batch_cycles), time += 10));
+      executed += batch_cycles;
     }
-    const bool starts = i == 0, ends = i + 1 == frames;
-    recording.messages.push_back(stored(topics::path_frame, path_frame(at, starts, ends, epoch), time += 10));
+    const bool starts = i == 0, ends = i + 1 == batches;
+    recording.messages.push_back(stored(topics::path_batch, path_batch(at, starts, ends, epoch), time += 10));
     recording.messages.push_back(
-        stored(topics::kinematics_frame, axis_frame(at, starts, ends, epoch), time += 1));
+        stored(topics::kinematics_batch, axis_batch(at, starts, ends, epoch), time += 1));
   }
-  for (const std::uint64_t end = first + static_cast<std::uint64_t>(frames) * frame_cycles; executed < end;
-       executed += frame_cycles)
-    recording.messages.push_back(
-        stored(topics::feedback_frame, feedback_frame(executed, frame_cycles), time += 10));
+  for (const std::uint64_t end = first + static_cast<std::uint64_t>(batches) * batch_cycles; executed < end;
+       executed += batch_cycles)
+    recording.messages.push_back(stored(topics::feedback, feedback(executed, batch_cycles), time += 10));
 }
 
 inline StoredMessage parameters(std::uint64_t revision, std::uint64_t time) {
@@ -94,12 +93,12 @@ inline StoredMessage parameters(std::uint64_t revision, std::uint64_t time) {
   return stored(topics::parameter_set, set, time);
 }
 
-inline StoredRecording sample_recording(int frames = 100) {
+inline StoredRecording sample_recording(int batches = 100) {
   StoredRecording recording;
   recording.complete = true;
   recording.metadata = {{"machine", "bench"}, {"contract", topics::contract_hash}};
   recording.messages.push_back(parameters(1, 1));
-  add_motion(recording, 0, frames);
+  add_motion(recording, 0, batches);
   return recording;
 }
 

@@ -13,8 +13,8 @@ namespace {
 TEST(Schedule, StatesFromBeforeTheRecordingAreDueAtOnceAndTheRestInItsTimeAtTheRate) {
   StoredRecording recording;
   constexpr std::uint64_t second = 1'000'000'000;
-  recording.messages = {stored(topics::path_frame, path_frame(0, true, false), 100 * second),
-                        stored(topics::path_frame, path_frame(8, false, true), 103 * second),
+  recording.messages = {stored(topics::path_batch, path_batch(0, true, false), 100 * second),
+                        stored(topics::path_batch, path_batch(8, false, true), 103 * second),
                         parameters(1, 5 * second)};
   const auto due = schedule(recording, {}, 2);
   ASSERT_EQ(due.size(), 3u);
@@ -24,17 +24,17 @@ TEST(Schedule, StatesFromBeforeTheRecordingAreDueAtOnceAndTheRestInItsTimeAtTheR
   EXPECT_EQ(due[2].seconds, 1.5) << "three seconds at twice the rate";
 }
 
-TEST(Schedule, FramesGoByEpochAndCycleWhateverTheOrderTheyWereHeardIn) {
+TEST(Schedule, BatchesGoByEpochAndCycleWhateverTheOrderTheyWereHeardIn) {
   StoredRecording recording;
-  recording.messages = {stored(topics::path_frame, path_frame(8, false, true), 10),
-                        stored(topics::path_frame, path_frame(0, true, false), 20),
-                        stored(topics::path_frame, path_frame(4, true, true, 2), 15)};
+  recording.messages = {stored(topics::path_batch, path_batch(8, false, true), 10),
+                        stored(topics::path_batch, path_batch(0, true, false), 20),
+                        stored(topics::path_batch, path_batch(4, true, true, 2), 15)};
   const auto due = schedule(recording, {}, 1);
   std::vector<std::uint64_t> firsts;
   for (const auto& d : due) {
-    idl::stream::PathFrame frame;
-    ASSERT_TRUE(bus::decode(d.message->cdr, frame));
-    firsts.push_back(frame.first);
+    idl::stream::PathBatch batch;
+    ASSERT_TRUE(bus::decode(d.message->cdr, batch));
+    firsts.push_back(batch.first);
   }
   EXPECT_EQ(firsts, (std::vector<std::uint64_t>{0, 8, 4})) << "epoch 2 begins at cycle 4";
   EXPECT_TRUE(std::is_sorted(due.begin(), due.end(),
@@ -43,7 +43,7 @@ TEST(Schedule, FramesGoByEpochAndCycleWhateverTheOrderTheyWereHeardIn) {
 
 TEST(Schedule, OnlyTheTopicsAskedFor) {
   const auto recording = sample_recording(5);
-  EXPECT_EQ(schedule(recording, {"kinematics_frame"}, 1).size(), 5u);
+  EXPECT_EQ(schedule(recording, {"kinematics_batch"}, 1).size(), 5u);
   EXPECT_EQ(schedule(recording, {}, 1).size(), recording.messages.size());
   const StoredRecording empty;
   EXPECT_TRUE(schedule(empty, {}, 1).empty());

@@ -62,12 +62,12 @@ TEST(ShownState, AxesAreTheLastRowOfTheFeedbackUnderTheirLogicalNumbers) {
   const auto name = parameter::axis_name.number();
   set.values = {{name, 0, "X"}, {name + 3000, 0, "A"}};
   recording.messages.push_back(stored(topics::parameter_set, set, 1));
-  auto frame = feedback_frame(100, 2);
-  frame.commanded = {1, 2, 3, 4};
-  frame.actual = {1, 2, 2.5, 4};
-  recording.messages.push_back(stored(topics::feedback_frame, frame, 2));
-  // A frame without a cycle (a hold) leaves the positions where they are.
-  recording.messages.push_back(stored(topics::feedback_frame, feedback_frame(102, 0), 3));
+  auto batch = feedback(100, 2);
+  batch.commanded = {1, 2, 3, 4};
+  batch.actual = {1, 2, 2.5, 4};
+  recording.messages.push_back(stored(topics::feedback, batch, 2));
+  // A batch without a cycle (a hold) leaves the positions where they are.
+  recording.messages.push_back(stored(topics::feedback, feedback(102, 0), 3));
   const auto document = shown_of(recording);
   EXPECT_EQ(document["axes"].size(), 2u);
   EXPECT_EQ(document["axes"]["0"]["commanded"], 3.0);
@@ -82,10 +82,10 @@ TEST(ShownState, BeforeTheFirstCycleAxesAreWhereTheyStand) {
   set.revision = 1;
   set.values = {{parameter::axis_name.number(), 0, "X"}};
   recording.messages.push_back(stored(topics::parameter_set, set, 1));
-  auto frame = feedback_frame(100, 0);
-  frame.axis_count = 1;
-  frame.position = {7.5};
-  recording.messages.push_back(stored(topics::feedback_frame, frame, 2));
+  auto batch = feedback(100, 0);
+  batch.axis_count = 1;
+  batch.position = {7.5};
+  recording.messages.push_back(stored(topics::feedback, batch, 2));
   const auto axis = shown_of(recording)["axes"]["0"];
   EXPECT_EQ(axis["commanded"], 7.5);
   EXPECT_EQ(axis["actual"], 7.5);

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr const char* different =
-    R"({"equal": false, "problem": "", "missing": [], "first": {"topic": "kinematics_frame",
+    R"({"equal": false, "problem": "", "missing": [], "first": {"topic": "kinematics_batch",
   "series": "channel 0", "cycle": 12, "field": "setpoints[1] <Y>", "around": [{"index": 11, "a": "1.5", "b": "1.5"},
   {"index": 12, "a": "1.6", "b": "1.7"}, {"index": 13, "a": "1.7", "b": ""}]}})";
 
@@ -25,7 +25,7 @@ TEST(SuiteReport, JudgesByTheStatusAndTellsTheFirstDifference) {
   EXPECT_TRUE(judged(0, R"({"equal": true})").passed);
   const auto result = judged(1, different);
   EXPECT_FALSE(result.passed);
-  EXPECT_EQ(result.problem, "first difference: kinematics_frame, channel 0, cycle 12, setpoints[1] <Y>");
+  EXPECT_EQ(result.problem, "first difference: kinematics_batch, channel 0, cycle 12, setpoints[1] <Y>");
   EXPECT_EQ(judged(1, R"({"equal": true, "problem": "", "missing": ["backlash"]})").problem,
             "required, and not in the recording: backlash");
   EXPECT_EQ(judged(1, R"({"error": "r.mcap: damaged, bytes 7 to 9"})").problem,

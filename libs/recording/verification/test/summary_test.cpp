@@ -20,10 +20,10 @@ Summary summary_of(const StoredRecording& recording) {
 
 TEST(Summary, CountsTopicsCyclesAndGapsAndNamesTheContract) {
   auto recording = sample_recording(100);
-  // Frames 20 and 21 of kinematics, cycles 160 to 175, are lost.
+  // Batches 20 and 21 of kinematics, cycles 160 to 175, are lost.
   std::erase_if(recording.messages, [](const StoredMessage& m) {
-    idl::stream::AxisFrame f;
-    return m.topic->handle == "kinematics_frame" && bus::decode(m.cdr, f) && f.first >= 160 && f.first < 176;
+    idl::stream::AxisBatch f;
+    return m.topic->handle == "kinematics_batch" && bus::decode(m.cdr, f) && f.first >= 160 && f.first < 176;
   });
   idl::service::Announcement announcement;
   announcement.service = "drive", announcement.vendor = "fastdds", announcement.version = "0.1.0";
@@ -39,13 +39,13 @@ TEST(Summary, CountsTopicsCyclesAndGapsAndNamesTheContract) {
   EXPECT_EQ(s.revisions, (std::set<std::uint64_t>{1}));
   EXPECT_EQ(s.participants, (std::set<std::string>{"drive fastdds 0.1.0 abc"}));
   ASSERT_EQ(s.streams.size(), 3u);
-  EXPECT_EQ(s.streams[0].handle, "path_frame") << "in the order of the stream";
+  EXPECT_EQ(s.streams[0].handle, "path_batch") << "in the order of the stream";
   EXPECT_EQ(s.streams[0].cycles, 800u);
   EXPECT_EQ(s.streams[0].lost, 0u);
   EXPECT_EQ(s.streams[1].lost, 16u);
   EXPECT_EQ(s.streams[1].gaps, (std::vector<recording::CycleRange>{{160, 16}}));
   const auto path = std::find_if(s.topics.begin(), s.topics.end(),
-                                 [](const TopicSummary& t) { return t.handle == "path_frame"; });
+                                 [](const TopicSummary& t) { return t.handle == "path_batch"; });
   ASSERT_NE(path, s.topics.end());
   EXPECT_EQ(path->messages, 100u);
   EXPECT_EQ(path->known, Known::same);
@@ -152,7 +152,7 @@ TEST(Summary, AFileCutOffAnywhereInItsLastChunksGivesWhatIsWhole) {
 TEST(Csv, WritesALineForEachCycleThatReadsBackToTheSameBits) {
   const auto recording = sample_recording(2);
   std::ostringstream out;
-  EXPECT_EQ(write_csv(recording, *bus::find_topic("kinematics_frame"), out), 16u);
+  EXPECT_EQ(write_csv(recording, *bus::find_topic("kinematics_batch"), out), 16u);
   std::istringstream in(out.str());
   std::string line;
   std::getline(in, line);
@@ -161,7 +161,7 @@ TEST(Csv, WritesALineForEachCycleThatReadsBackToTheSameBits) {
             "time_utc");
   std::getline(in, line);
   EXPECT_EQ(line, "0,0,1,1,true,false,7,0,0.10000000000000001,,1970-01-01T00:00:00.000000022Z")
-      << "the state is told after the frame only; add_motion() writes the frame at 1 + 10 + 10 + 1 ns";
+      << "the state is told after the batch only; add_motion() writes the batch at 1 + 10 + 10 + 1 ns";
   for (int i = 1; i < 8; ++i) std::getline(in, line);
   EXPECT_EQ(line, "7,0,1,1,false,false,7,7,7.0999999999999996,0,1970-01-01T00:00:00.000000022Z");
   EXPECT_EQ(std::stod("7.0999999999999996"), 7 + 0.1);
@@ -190,13 +190,13 @@ std::vector<std::string> csv_lines(const StoredMessage& message) {
 }
 
 TEST(Csv, HasTheAngleOfTheSpindlesInEachCycleAndTheirSpeedInTheLastOfABatch) {
-  auto feedback = feedback_frame(0, 2);
-  feedback.spindle_angle = {0.5, 0.75};
-  feedback.spindle_speed = {1000};
-  feedback.spindle_oriented = {1};
-  feedback.velocity = {1, 2};
-  feedback.torque = {0.5, 0.25};
-  const auto lines = csv_lines(stored(topics::feedback_frame, feedback, 7));
+  auto turned = feedback(0, 2);
+  turned.spindle_angle = {0.5, 0.75};
+  turned.spindle_speed = {1000};
+  turned.spindle_oriented = {1};
+  turned.velocity = {1, 2};
+  turned.torque = {0.5, 0.25};
+  const auto lines = csv_lines(stored(topics::feedback, turned, 7));
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0],
             "cycle,channel,epoch,revision,commanded[0],commanded[1],actual[0],actual[1],spindle_angle[0],"
@@ -206,11 +206,11 @@ TEST(Csv, HasTheAngleOfTheSpindlesInEachCycleAndTheirSpeedInTheLastOfABatch) {
 }
 
 TEST(Csv, HasTheSetpointOfACoupledSpindle) {
-  auto tapping = path_frame(0, true, false);
+  auto tapping = path_batch(0, true, false);
   tapping.spindle_axis = 4;
-  tapping.spindle.assign(frame_cycles, 0.25);
-  const auto lines = csv_lines(stored(topics::path_frame, tapping, 7));
-  ASSERT_EQ(lines.size(), 1 + std::size_t{frame_cycles});
+  tapping.spindle.assign(batch_cycles, 0.25);
+  const auto lines = csv_lines(stored(topics::path_batch, tapping, 7));
+  ASSERT_EQ(lines.size(), 1 + std::size_t{batch_cycles});
   EXPECT_TRUE(lines[0].ends_with(",setpoint.W,spindle_axis,spindle,time_utc")) << lines[0];
   EXPECT_TRUE(lines[1].ends_with(",4,0.25,1970-01-01T00:00:00.000000007Z")) << lines[1];
 }

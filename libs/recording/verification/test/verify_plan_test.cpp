@@ -27,7 +27,7 @@ void play(const VerifyPlan& plan) {
       idl::parameters::ParameterSet set;
       ASSERT_TRUE(bus::decode(step.message->cdr, set));
       revision = set.revision;
-    } else if (step.message->topic->handle == "feedback_frame") {
+    } else if (step.message->topic->handle == "feedback") {
       EXPECT_GE(span.first + span.count, executed);
       executed = span.first + span.count;
     } else {
@@ -35,19 +35,19 @@ void play(const VerifyPlan& plan) {
       EXPECT_LE(span.first + span.count, executed + lead) << "never beyond the credit";
       EXPECT_LT((std::pair<std::uint64_t, std::uint64_t>(span.epoch, span.first)),
                 (std::pair<std::uint64_t, std::uint64_t>(span.epoch, span.first + 1)));
-      auto answer = axis_frame(span.first, span.starts, span.ends, span.epoch);
-      progress.observe(stored(topics::kinematics_frame, answer, 0));
+      auto answer = axis_batch(span.first, span.starts, span.ends, span.epoch);
+      progress.observe(stored(topics::kinematics_batch, answer, 0));
     }
   }
   EXPECT_TRUE(progress.reached(plan.end));
 }
 
-TEST(StagePlan, FeedsEveryFrameWithinItsCreditAndExpectsEveryOutput) {
+TEST(StagePlan, FeedsEveryBatchWithinItsCreditAndExpectsEveryOutput) {
   const auto recording = sample_recording(100);
   const auto plan = plan_verification(recording, "kinematics", 0);
   EXPECT_EQ(plan.cycles, 800u);
   EXPECT_EQ(plan.expected.size(), 100u);
-  EXPECT_EQ(plan.topics, (std::set<std::string>{"kinematics_frame"}));
+  EXPECT_EQ(plan.topics, (std::set<std::string>{"kinematics_batch"}));
   play(plan);
 }
 
@@ -75,7 +75,7 @@ TEST(StagePlan, AStartWaitsForEverythingBeforeIt) {
   MessageRows rows;
   bool found = false;
   for (const auto& step : plan.steps) {
-    if (step.message->topic->handle != "path_frame") continue;
+    if (step.message->topic->handle != "path_batch") continue;
     ASSERT_TRUE(rows.load(*step.message->topic, step.message->cdr));
     if (rows.span().first != 160) continue;
     found = true;
@@ -95,11 +95,11 @@ TEST(StagePlan, AStageIsNeverFedMoreThanAWindowAhead) {
     for (const auto& need : step.needs)
       if (!progress.reached(need))
         progress.observe(
-            stored(topics::kinematics_frame, axis_frame(need.place.minor - frame_cycles, false, false), 0));
+            stored(topics::kinematics_batch, axis_batch(need.place.minor - batch_cycles, false, false), 0));
     ASSERT_TRUE(rows.load(*step.message->topic, step.message->cdr));
-    if (step.message->topic->handle == "path_frame") {
+    if (step.message->topic->handle == "path_batch") {
       EXPECT_LE(rows.span().first + rows.span().count,
-                progress.at({bus::find_topic("kinematics_frame"), 0}).minor + 512)
+                progress.at({bus::find_topic("kinematics_batch"), 0}).minor + 512)
           << "half of the 1024 cycles that a stage keeps";
     }
   }
@@ -107,56 +107,56 @@ TEST(StagePlan, AStageIsNeverFedMoreThanAWindowAhead) {
 
 TEST(StagePlan, AnEpochThatWasGivenUpIsNotWaitedForBeyondWhatIsRecorded) {
   auto recording = sample_recording(20);  // cycles 0..159 of epoch 1
-  // The last two frames of epoch 1 were never transformed: a reset came, and epoch 2 begins at cycle 144.
+  // The last two batches of epoch 1 were never transformed: a reset came, and epoch 2 begins at cycle 144.
   std::erase_if(recording.messages, [](const StoredMessage& m) {
-    idl::stream::AxisFrame f;
-    return m.topic->handle == "kinematics_frame" && bus::decode(m.cdr, f) && f.first >= 144;
+    idl::stream::AxisBatch f;
+    return m.topic->handle == "kinematics_batch" && bus::decode(m.cdr, f) && f.first >= 144;
   });
   add_motion(recording, 144, 10, 2);
   const auto plan = plan_verification(recording, "kinematics", 0);
   play(plan);
   // A service that does transform them is not wrong.
   auto produced = plan.expected;
-  produced.push_back(stored(topics::kinematics_frame, axis_frame(144, false, false), 0));
-  produced.push_back(stored(topics::kinematics_frame, axis_frame(152, false, true), 0));
+  produced.push_back(stored(topics::kinematics_batch, axis_batch(144, false, false), 0));
+  produced.push_back(stored(topics::kinematics_batch, axis_batch(152, false, true), 0));
   EXPECT_EQ(plan.drop_unrecorded(produced), 2u);
   EXPECT_EQ(produced.size(), plan.expected.size());
 }
 
-TEST(StagePlan, ParametersComeBeforeTheFirstFrameMadeWithThem) {
+TEST(StagePlan, ParametersComeBeforeTheFirstBatchMadeWithThem) {
   auto recording = sample_recording(20);
   recording.messages.push_back(parameters(2, 900));
   recording.messages.push_back(parameters(3, 901));
   add_motion(recording, 160, 20);
   for (auto& message : recording.messages) {
-    idl::stream::PathFrame frame;
-    if (message.topic->handle != "path_frame" || !bus::decode(message.cdr, frame) || frame.first < 160)
+    idl::stream::PathBatch batch;
+    if (message.topic->handle != "path_batch" || !bus::decode(message.cdr, batch) || batch.first < 160)
       continue;
-    frame.revision = 3;
-    bus::encode(frame, message.cdr);
+    batch.revision = 3;
+    bus::encode(batch, message.cdr);
   }
   play(plan_verification(recording, "kinematics", 0));
 }
 
 TEST(StagePlan, ARecordingThatBeginsInMotionIsJoinedAtAConsistentCut) {
   auto recording = sample_recording(100);
-  // Of the frames the recorder has 41 and on, of the feedback everything from cycle 280 on.
+  // Of the batches the recorder has 41 and on, of the feedback everything from cycle 280 on.
   std::erase_if(recording.messages, [](const StoredMessage& m) {
     MessageRows rows;
     return is_cyclic(*m.topic) && rows.load(*m.topic, m.cdr) &&
-           rows.span().first < (m.topic->handle == "feedback_frame" ? 280u : 328u);
+           rows.span().first < (m.topic->handle == "feedback" ? 280u : 328u);
   });
   for (auto& message : recording.messages) {
-    idl::stream::FeedbackFrame frame;
-    if (message.topic->handle != "feedback_frame" || !bus::decode(message.cdr, frame)) continue;
-    frame.channels.resize(1);
-    frame.channels[0].epoch = 1;
-    frame.channels[0].active = true;
-    frame.channels[0].states = {{idl::stream::Stage::KINEMATICS, frame.first + frame.count - 1, {}}};
-    bus::encode(frame, message.cdr);
+    idl::stream::Feedback batch;
+    if (message.topic->handle != "feedback" || !bus::decode(message.cdr, batch)) continue;
+    batch.channels.resize(1);
+    batch.channels[0].epoch = 1;
+    batch.channels[0].active = true;
+    batch.channels[0].states = {{idl::stream::Stage::KINEMATICS, batch.first + batch.count - 1, {}}};
+    bus::encode(batch, message.cdr);
   }
   const auto plan = plan_verification(recording, "kinematics", 0);
-  // The cut after cycle 327 is the first whose next frame is there; its lead reaches back to 295, which is.
+  // The cut after cycle 327 is the first whose next batch is there; its lead reaches back to 295, which is.
   MessageRows rows;
   ASSERT_TRUE(rows.load(*plan.expected.front().topic, plan.expected.front().cdr));
   EXPECT_EQ(rows.span().first, 328u);
@@ -171,28 +171,28 @@ TEST(StagePlan, ALongFirstBatchComesBeforeTheFeedbackOfItsCycles) {
   std::erase_if(recording.messages, [](const StoredMessage& m) { return is_cyclic(*m.topic); });
   constexpr std::uint32_t batch = 64;
   static_assert(batch > lead);
-  const auto lengthen = [](auto& frame) {
-    const auto width = frame.setpoints.size() / frame.count;
-    frame.count = batch;
-    frame.setpoints.assign(batch * width, 1.0);
-    frame.lines.assign(batch, 7);
+  const auto lengthen = [](auto& batch) {
+    const auto width = batch.setpoints.size() / batch.count;
+    batch.count = batch;
+    batch.setpoints.assign(batch * width, 1.0);
+    batch.lines.assign(batch, 7);
   };
-  auto path = path_frame(160, true, true);
-  auto axes = axis_frame(160, true, true);
+  auto path = path_batch(160, true, true);
+  auto axes = axis_batch(160, true, true);
   lengthen(path), lengthen(axes);
-  recording.messages.push_back(stored(topics::feedback_frame, feedback_frame(160, 0), 10));
-  recording.messages.push_back(stored(topics::path_frame, path, 20));
-  recording.messages.push_back(stored(topics::kinematics_frame, axes, 30));
-  recording.messages.push_back(stored(topics::feedback_frame, feedback_frame(160, batch), 40));
+  recording.messages.push_back(stored(topics::feedback, feedback(160, 0), 10));
+  recording.messages.push_back(stored(topics::path_batch, path, 20));
+  recording.messages.push_back(stored(topics::kinematics_batch, axes, 30));
+  recording.messages.push_back(stored(topics::feedback, feedback(160, batch), 40));
   const auto plan = plan_verification(recording, "kinematics", 0);
   EXPECT_EQ(plan.cycles, batch);
   MessageRows rows;
   std::uint64_t executed = 0;
   bool fed = false;
   for (const auto& step : plan.steps) {
-    if (step.message->topic->handle == "feedback_frame" && rows.load(*step.message->topic, step.message->cdr))
+    if (step.message->topic->handle == "feedback" && rows.load(*step.message->topic, step.message->cdr))
       executed = rows.span().first + rows.span().count;
-    if (step.message->topic->handle != "path_frame") continue;
+    if (step.message->topic->handle != "path_batch") continue;
     fed = true;
     EXPECT_EQ(executed, 160u);
   }
@@ -202,14 +202,14 @@ TEST(StagePlan, ALongFirstBatchComesBeforeTheFeedbackOfItsCycles) {
 TEST(StagePlan, SaysWhichInputIsMissing) {
   auto recording = sample_recording(100);
   std::erase_if(recording.messages, [](const StoredMessage& m) {
-    idl::stream::PathFrame f;
-    return m.topic->handle == "path_frame" && bus::decode(m.cdr, f) && f.first == 160;
+    idl::stream::PathBatch f;
+    return m.topic->handle == "path_batch" && bus::decode(m.cdr, f) && f.first == 160;
   });
   try {
     plan_verification(recording, "kinematics", 0);
     FAIL();
   } catch (const std::runtime_error& e) {
-    EXPECT_STREQ(e.what(), "the recording misses cycles 160 to 167 of path_frame");
+    EXPECT_STREQ(e.what(), "the recording misses cycles 160 to 167 of path_batch");
   }
   const StoredRecording empty, small = sample_recording(5);
   EXPECT_THROW(plan_verification(empty, "kinematics", 0), std::runtime_error);

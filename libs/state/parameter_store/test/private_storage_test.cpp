@@ -61,20 +61,20 @@ TEST_F(PrivateStorageTest, AStoreOverItPublishesWhatTheStoreOfTheFilesPublishes)
   const auto before = on_the_disk();
   {
     PrivateStorage files(disk);
-    const ParameterStore shadow(files, {}, "first");
-    EXPECT_TRUE(shadow.set().values.empty());
-    ASSERT_EQ(shadow.set().pending.size(), 1u) << "it waits for a reset";
-    EXPECT_EQ(shadow.set().pending[0].number, 10u);
+    const ParameterStore standby(files, {}, "first");
+    EXPECT_TRUE(standby.set().values.empty());
+    ASSERT_EQ(standby.set().pending.size(), 1u) << "it waits for a reset";
+    EXPECT_EQ(standby.set().pending[0].number, 10u);
   }
   PrivateStorage files(disk);
-  const ParameterStore shadow(files, {}, "second");
+  const ParameterStore standby(files, {}, "second");
   EXPECT_EQ(on_the_disk(), before);
-  ASSERT_EQ(shadow.set().values.size(), 1u);
-  EXPECT_EQ(shadow.set().values[0].value, 0.004);
+  ASSERT_EQ(standby.set().values.size(), 1u);
+  EXPECT_EQ(standby.set().values[0].value, 0.004);
   const ParameterStore store(disk, {}, "second");
-  EXPECT_EQ(shadow.set(), store.set());
-  EXPECT_EQ(shadow.tool_table(), store.tool_table());
-  EXPECT_EQ(shadow.work_offsets(), store.work_offsets());
+  EXPECT_EQ(standby.set(), store.set());
+  EXPECT_EQ(standby.tool_table(), store.tool_table());
+  EXPECT_EQ(standby.work_offsets(), store.work_offsets());
 }
 
 }  // namespace

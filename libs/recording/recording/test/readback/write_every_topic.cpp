@@ -117,11 +117,11 @@ class EveryTopic {
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   EveryTopic all(argv[1]);
-  all.add(topics::path_frame);
-  all.add(topics::kinematics_frame);
-  all.add(topics::compensation_frame);
-  all.add(topics::gantry_frame);
-  all.add(topics::feedback_frame);
+  all.add(topics::path_batch);
+  all.add(topics::kinematics_batch);
+  all.add(topics::compensation_batch);
+  all.add(topics::gantry_batch);
+  all.add(topics::feedback);
   all.add(topics::stream_request);
   all.add(topics::stage_progress);
   all.add(topics::recording_progress);
