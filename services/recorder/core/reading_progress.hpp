@@ -15,7 +15,7 @@ class ReadingProgress {
   /// `recorder` tells recorders apart.
   explicit ReadingProgress(std::uint64_t recorder) { report_.recorder = recorder; }
 
-  /// A feedback feedback that was read, and its size on the bus.
+  /// A batch of feedback that was read, and its size on the bus.
   void read(const idl::stream::Feedback& feedback, std::size_t bytes);
   /// What has to be published; none when it was already.
   std::optional<idl::stream::RecordingProgress> take();

@@ -171,11 +171,11 @@ TEST(StagePlan, ALongFirstBatchComesBeforeTheFeedbackOfItsCycles) {
   std::erase_if(recording.messages, [](const StoredMessage& m) { return is_cyclic(*m.topic); });
   constexpr std::uint32_t batch = 64;
   static_assert(batch > lead);
-  const auto lengthen = [](auto& batch) {
-    const auto width = batch.setpoints.size() / batch.count;
-    batch.count = batch;
-    batch.setpoints.assign(batch * width, 1.0);
-    batch.lines.assign(batch, 7);
+  const auto lengthen = [](auto& message) {
+    const auto width = message.setpoints.size() / message.count;
+    message.count = batch;
+    message.setpoints.assign(batch * width, 1.0);
+    message.lines.assign(batch, 7);
   };
   auto path = path_batch(160, true, true);
   auto axes = axis_batch(160, true, true);
