@@ -68,13 +68,16 @@ std::optional<std::map<std::string, std::string>> thread_switch_counts(pid_t pid
   return counts;
 }
 
+// CLI11 writes it behind the error, also when a process of another build does not know an argument.
+constexpr const char* hint_behind_errors = "Run with --help for more information.";
+
 }  // namespace
 
 std::string last_line(const std::string& path) {
   std::ifstream in(path);
   std::string line, last;
   while (std::getline(in, line))
-    if (!line.empty()) last = line;
+    if (!line.empty() && line != hint_behind_errors) last = line;
   return last;
 }
 

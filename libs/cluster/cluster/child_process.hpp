@@ -11,7 +11,7 @@
 
 namespace trunnion::cluster {
 
-/// The last line of the file `path` that is not empty.
+/// The last line of the file `path` that is neither empty nor only the hint at --help.
 std::string last_line(const std::string& path);
 
 /// Puts `arguments` in the place of this process. Returns only when there is no such program.

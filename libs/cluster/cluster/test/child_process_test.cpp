@@ -33,6 +33,18 @@ TEST(ChildProcess, SaysHowItEndedAndWhatItWroteLast) {
   std::filesystem::remove(options.log);
 }
 
+TEST(ChildProcess, TheHintBehindAWrongArgumentIsNotTheReason) {
+  auto options = shell(
+      "echo 'The following argument was not expected: --standby'; "
+      "echo 'Run with --help for more information.'; exit 109");
+  options.log = testing::TempDir() + "child_process_test_hint.log";
+  std::filesystem::remove(options.log);
+  ChildProcess child(options);
+  ASSERT_TRUE(eventually([&] { return child.status().has_value(); }));
+  EXPECT_EQ(last_line(options.log), "The following argument was not expected: --standby");
+  std::filesystem::remove(options.log);
+}
+
 TEST(ChildProcess, AProgramThatCannotBeExecutedEndsWith127) {
   ChildOptions options;
   options.arguments = {"/nonexistent"};
