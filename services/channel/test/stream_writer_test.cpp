@@ -111,7 +111,7 @@ TEST_F(Writer, WritesNoFartherThanRecordersRead) {
   EXPECT_TRUE(writer.may_write(8, lead));
 }
 
-TEST_F(Writer, ABatchNamesItsCyclesItsBatchAndTheRevision) {
+TEST_F(Writer, ABatchNamesItsCyclesItsFrameAndTheRevision) {
   become_active();
   const auto first = batch(4, 0.5);
   EXPECT_TRUE(first.starts);
