@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks that a class whose state is written by a list of fields forgets none of its members.
 
-Such a class has `template <class Self, class Visit> static void fields(Self& self, Visit&& visit)`; one whose list is in
-a struct of its own (`template <class Core> struct Of` in it) names that struct as a friend. Every member is one of
+Such a class has `template <class Self, class Visit> static void fields(Self& self, Visit&& visit)`. Every member is
 
 - visited whole: visit("name", self.member) (or a number), visit("name", *self.member) or Type::fields(self.member, visit)
 - declared with a comment behind it that says `no field` or `no fields`
-- named by a comment `No fields, REASON: member, member.` of the class or of the list
+- named by a comment `No fields, REASON: member, member.` of the class
 
 A member that is visited and excused, and a name that is no member, are errors, too.
 
@@ -114,7 +113,7 @@ class Source:
 
 
 def sources_of(groups):
-    """Those of the product that have a list of fields or a class with a friend."""
+    """Those of the product that have a list of fields."""
     found = []
     for group in groups:
         for folder, _, files in os.walk(os.path.join(ROOT, group)):
@@ -123,13 +122,13 @@ def sources_of(groups):
                 if not name.endswith((".hpp", ".cpp")): continue
                 path = os.path.join(folder, name)
                 with open(path, encoding="utf-8") as f: text = f.read()
-                if "static void fields(Self&" in text or "friend struct" in text: found.append(Source(os.path.relpath(path, ROOT), text))
+                if "static void fields(Self&" in text: found.append(Source(os.path.relpath(path, ROOT), text))
     if not found: raise FileNotFoundError("no source with a list of fields")
     return found
 
 
-def visited_in(body, receiver):
-    return set(re.findall(r'(?:visit\((?:"\w+"|\d+u),\s*\*?|::fields\()' + receiver + r"\.(\w+)[),]", body))
+def visited_in(body):
+    return set(re.findall(r'(?:visit\((?:"\w+"|\d+u),\s*\*?|::fields\()self\.(\w+)[),]', body))
 
 
 def judge(place, members, visited, excused):
@@ -144,20 +143,10 @@ def check(sources, show=False):
     errors = []
     for source in sources:
         for name, begin, end, body in source.lists():
-            home, owner, excused, receiver = source, (name, begin, end), {}, "self"
-            if name == "Of":
-                outer, b, e = max((c for c in source.classes if c[1] < begin and end < c[2]), key=lambda c: c[1])
-                homes = [(s, c) for s in sources for c in s.classes if re.search(rf"\bfriend struct {outer};", s.code[c[1]:c[2]])]
-                if len(homes) != 1:
-                    errors.append(f"{source.path}: {outer} is a friend of {len(homes)} classes")
-                    continue
-                (home, owner), receiver = homes[0], "c"
-                excused = {**source.excuses(b, e), **source.excuses(begin, end)}
-            members = home.members(*owner[1:])
-            excused = {**excused, **home.excuses(*owner[1:])}
-            visited = visited_in(body, receiver)
-            place = f"{home.path}:{home.text[:owner[1]].count(chr(10)) + 1}: {owner[0]}"
-            errors += judge(place, members, visited, excused)
+            members = source.members(begin, end)
+            visited = visited_in(body)
+            place = f"{source.path}:{source.text[:begin].count(chr(10)) + 1}: {name}"
+            errors += judge(place, members, visited, source.excuses(begin, end))
             if show: print(f"{place}: {len(visited)} of {len(members)} members; not {', '.join(n for n in members if n not in visited) or 'one left out'}")
     return errors
 
@@ -207,22 +196,7 @@ def test():
         assert [name] == [f.split()[2] for f in found] if name else found == [], (new, found)
     assert "gone_ is no member" in check([Source("valve.hpp", good.replace("/// name_.", "/// name_, gone_."))])[0]
     assert "y is no field" in check([Source("valve.hpp", good.replace(', visit("y", self.y)', ""))])[0]
-    friend = "class Core {\n  friend struct List;\n  int a_ = 0, b_ = 0;\n  Part part_;\n};\n"
-    listed = """struct List {
-  // No fields, made again: part_.
-  template <class Core>
-  struct Of {
-    Core& core;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit&& visit) {
-      auto& c = self.core;
-      visit("a", c.a_), visit("part", c.part_.whole());
-    }
-  };
-};
-"""
-    found = check([Source("core.hpp", friend), Source("list.cpp", listed)])
-    assert len(found) == 1 and "Core: b_ is no field" in found[0], found
+    assert "flow_ is no field" in check([Source("valve.hpp", good.replace("self.flow_)", "self.flow_.whole())"))])[0]
 
 
 if __name__ == "__main__":
