@@ -9,8 +9,8 @@ namespace trunnion::drive {
 namespace {
 
 // X follows within 2 mm between -100 and 100 mm.
-struct WatchedAxis {
-  WatchedAxis() { supervision.configure(1); }
+struct SupervisedX {
+  SupervisedX() { supervision.configure(1); }
   SupervisedAxis now() const { return {info, limits, status, command, velocity}; }
   // Number of the alarm, 0 for none.
   std::uint32_t finding() {
@@ -28,7 +28,7 @@ struct WatchedAxis {
 };
 
 TEST(AxisSupervision, ReportsAFaultOnceUntilItIsAcknowledged) {
-  WatchedAxis x;
+  SupervisedX x;
   EXPECT_EQ(x.finding(), 0u);
   x.status.following_error = -2.1;
   EXPECT_EQ(x.finding(), alarm::following_error.number);
@@ -41,7 +41,7 @@ TEST(AxisSupervision, ReportsAFaultOnceUntilItIsAcknowledged) {
 }
 
 TEST(AxisSupervision, BeyondTheTravelOnlyTheWayOnIsAFault) {
-  WatchedAxis x;
+  SupervisedX x;
   x.command = x.status.position = 100.6;
   EXPECT_EQ(x.finding(), 0u);
   x.velocity = -0.1;
@@ -57,7 +57,7 @@ TEST(AxisSupervision, BeyondTheTravelOnlyTheWayOnIsAFault) {
 }
 
 TEST(AxisSupervision, AnErrorAtRestCountsFromTheRowThatIsInForce) {
-  WatchedAxis x;
+  SupervisedX x;
   x.status.following_error = 3;
   EXPECT_FALSE(x.runs_away(true));
   int periods = 0;
