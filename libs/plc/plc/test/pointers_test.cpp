@@ -113,14 +113,16 @@ TEST(Pointers, StopOutsideTheirVariable) {
     Translated program(
         "VAR x, i : INT; p : POINTER TO INT; a : ARRAY[0..3] OF REAL; all : POINTER TO ARRAY[0..99] OF REAL; "
         "r : REAL; s : STRING[10]; b : POINTER TO BYTE; times : ARRAY[0..1] OF TIME; t : POINTER TO TIME; v "
-        ": TIME; whole : ARRAY[0..99] OF REAL; pts : ARRAY[0..1] OF Pt; pp : POINTER TO Pt; END_VAR",
+        ": TIME; whole : ARRAY[0..99] OF REAL; pts : ARRAY[0..1] OF Pt; pp : POINTER TO Pt;\n"
+        "none : REF_TO INT; point : REF_TO Pt; row : REF_TO ARRAY[0..3] OF REAL; END_VAR",
         use, types);
     const auto fault = program.scan();
-    EXPECT_THAT(fault, HasSubstr("t.st:4:")) << use;
+    EXPECT_THAT(fault, HasSubstr("t.st:5:")) << use;
     return fault;
   };
   for (const char* use :
-       {"p^ := 1;", "i := p^;", "pp^.x := 1;", "r := all^[1];", "p := NULL; p := p + 2; p^ := 1;"})
+       {"p^ := 1;", "i := p^;", "pp^.x := 1;", "r := all^[1];", "p := NULL; p := p + 2; p^ := 1;",
+        "p := ADR(none^); p^ := 1;", "p := ADR(point^.y); i := p^;", "all := ADR(row^[1]); all^[0] := 1.0;"})
     EXPECT_THAT(fault_of(use), HasSubstr("a reference to no variable")) << use;
   EXPECT_THAT(fault_of("p := ADR(x) + 2; p^ := 1;"),
               HasSubstr("a pointer to byte 3 of a variable with the bytes 0 .. 1"));
@@ -239,6 +241,7 @@ TEST(Pointers, CountBytesWithinTheirLimits) {
   EXPECT_EQ(pointer_offset(pointer_moved(pointer, 0x80000000u)), -farthest);
   EXPECT_EQ(pointer_moved(null_pointer, 4), null_pointer);
   EXPECT_EQ(pointer_number(null_pointer), 0u);
+  EXPECT_EQ(pointer_cell(most_cells, 3), null_pointer);
 }
 
 TEST(Pointers, AreVerifiedBeforeTheyRun) {
