@@ -204,6 +204,20 @@ TEST(Pointers, AreRefusedWithOneClearLine) {
               HasSubstr("'i' is gone after the method, but VAR_IN_OUT 'w' has pointers"));
 }
 
+// They have one field of the same name, but of 2 and of 21 bytes.
+TEST(Pointers, TellStructuresWithoutNameApart) {
+  const std::string declarations =
+      "VAR a : STRUCT x : INT; END_STRUCT; pa : POINTER TO STRUCT x : INT; END_STRUCT;\n"
+      "b : STRUCT x : STRING[20]; END_STRUCT; pb : POINTER TO STRUCT x : STRING[20]; END_STRUCT; END_VAR\n";
+  Translated program(declarations, "pa := ADR(a); pa^.x := 3; pb := ADR(b); pb^.x := 'text';");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("a.x") + program.get("b.x"), "3'text'");
+  for (const char* wrong : {"pa := ADR(b);", "a := b;", "b := pa^;"}) {
+    const auto text = "PROGRAM main " + declarations + wrong + " END_PROGRAM\n";
+    EXPECT_FALSE(compile({{"t.st", text}}, interface_registers()).good()) << wrong;
+  }
+}
+
 TEST(Pointers, BeginWithTheirInitialValuesInNewPrograms) {
   const auto translated = [](const std::string& more) {
     return compile({{"t.st", "PROGRAM main VAR x : INT; p : POINTER TO INT; END_VAR p := ADR(x); " + more +
