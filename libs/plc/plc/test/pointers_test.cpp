@@ -273,6 +273,12 @@ TEST(Pointers, AreVerifiedBeforeTheyRun) {
     change(other.pointed[0]);
     EXPECT_NE(verify(other), "");
   }
+  // The longest STRING has 1000 bytes and the byte 0.
+  for (const auto& [bytes, good] : {std::pair{1001u, true}, std::pair{1002u, false}}) {
+    auto other = code;
+    other.pointed.push_back({Pointed::View::string, 7, 1, 200, bytes, 0});
+    EXPECT_EQ(verify(other).empty(), good) << bytes;
+  }
   for (auto& in : code.code)
     if (in.op == Op::point_load) in.c = 1;
   EXPECT_THAT(verify(code), HasSubstr("has a wrong operand"));
