@@ -187,7 +187,6 @@ Value Lowering::part(const Expression& e) {
   auto value = expression(*e.parts[0]);
   if (value.is_error()) return value;
   if (value.is_constant) return failed(e.at, "a part of a constant is not accessible");
-  value = located(value);
   const auto kind = value.type->kind;
   const int whole = bits(kind);
   const bool of_bits = is_bits(kind) && whole >= 8;
@@ -212,6 +211,7 @@ Value Lowering::part(const Expression& e) {
     return failed(e.at, "%" + e.name + " is outside " + value.type->name + ", which has the parts 0 .. " +
                             std::to_string(std::max(whole / width - 1, 0)) + " of this size");
   value.variable = nullptr;
+  if (value.place.whole == nullptr) value.place.whole = value.type;
   value.type = elementary(width == 1    ? Kind::boolean
                           : width == 8  ? Kind::byte
                           : width == 16 ? Kind::word

@@ -133,6 +133,11 @@ std::int32_t Lowering::moved_pointer(const Place& place) {
   return result;
 }
 
+/// A part is read and written with the whole of which it has bits.
+std::int32_t Lowering::pointed_at(const Place& place, const Type& type) {
+  return unit_.pointed(place.whole != nullptr ? *place.whole : type);
+}
+
 /// What is used as a whole has the address of its cells: it must be of the type of the pointer.
 Value Lowering::located(Value value) {
   if (value.place.base != Place::Base::pointer) return value;

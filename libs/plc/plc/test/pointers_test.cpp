@@ -83,6 +83,20 @@ TEST(Pointers, ReachTheBytesOfNumbers) {
   EXPECT_EQ(program.get("words"), "[255, 0]");   // 16#FFFF, then its high byte and the next low one are 0
 }
 
+// 'a' is 16#61 and 'A' without bit 5; bit 16 of -2 counts 65536; bit 31 of a REAL is its sign.
+TEST(Pointers, ReachTheBitsOfBytes) {
+  Translated program(
+      "VAR text : STRING[5] := 'ab'; i : DINT := -2; r : REAL := 1.0; pb : POINTER TO BYTE; pw : POINTER TO "
+      "WORD;\npd : POINTER TO DWORD; bit, sign : BOOL; w : WORD; END_VAR",
+      "pb := ADR(text); bit := pb^.%X6; pb^.%X5 := FALSE; pd := ADR(i); pd^.%X16 := FALSE; pd := ADR(r);\n"
+      "pd^.%X31 := TRUE; sign := pd^.%W1.%X15; pw := ADR(w); pw^.%B1 := 16#12;");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("bit") + program.get("text"), "TRUE'Ab'");
+  EXPECT_EQ(program.get("i"), "-65538");
+  EXPECT_EQ(program.get("r") + program.get("sign"), "-1.0TRUE");
+  EXPECT_EQ(program.get("w"), "4608");  // 16#1200
+}
+
 TEST(Pointers, AreParametersAndResults) {
   Translated program(
       "VAR a : ARRAY[1..3] OF INT := [4, 5, 6]; total : INT; c : Count; text : STRING[20] := 'a b c';\n"
