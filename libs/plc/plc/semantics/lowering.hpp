@@ -108,7 +108,6 @@ class Lowering {
   std::string pointing(const Expression& of, const Value& value);
   bool is_of_method(const Variable& variable) const;
   std::int32_t moved_pointer(const Place& place);
-  std::int32_t pointed_at(const Place& place, const Type& type);
   Value located(Value value);
   Value converted_to_pointer(const Value& value, const Type& to, Position at);
   Value number_of_pointer(const Value& pointer);

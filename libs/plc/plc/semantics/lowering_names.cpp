@@ -211,7 +211,6 @@ Value Lowering::part(const Expression& e) {
     return failed(e.at, "%" + e.name + " is outside " + value.type->name + ", which has the parts 0 .. " +
                             std::to_string(std::max(whole / width - 1, 0)) + " of this size");
   value.variable = nullptr;
-  if (value.place.whole == nullptr) value.place.whole = value.type;
   value.type = elementary(width == 1    ? Kind::boolean
                           : width == 8  ? Kind::byte
                           : width == 16 ? Kind::word

@@ -145,7 +145,7 @@ std::int32_t Lowering::load(const Place& place, const Type& type) {
   if (place.base != Place::Base::frame) {
     raw = result;
     if (place.base == Place::Base::pointer)
-      emit_.add(Op::point_load, result, moved_pointer(place), pointed_at(place, type));
+      emit_.add(Op::point_load, result, moved_pointer(place), unit_.pointed(*place.pointed));
     else if (place.base == Place::Base::absolute)
       emit_.add(Op::load, result, place.offset);
     else
@@ -214,7 +214,7 @@ void Lowering::store_cell(const Place& place, const Type& type, std::int32_t sou
       emit_.add(Op::save_at, source, place.cell, place.offset);
       break;
     case Place::Base::pointer:
-      emit_.add(Op::point_save, source, moved_pointer(place), pointed_at(place, type));
+      emit_.add(Op::point_save, source, moved_pointer(place), unit_.pointed(*place.pointed));
       break;
     case Place::Base::none:
       break;

@@ -121,7 +121,7 @@ Value Lowering::pointed_by(const Value& pointer, Position at) {
   if (is_incomplete(element)) return refused_incomplete(element, at);
   Value result;
   result.type = &element;
-  result.place = {Place::Base::pointer, 0, cell(pointer), -1, 0, 0, true, ""};
+  result.place = {Place::Base::pointer, 0, cell(pointer), -1, 0, 0, true, "", &element};
   return result;
 }
 
@@ -133,16 +133,11 @@ std::int32_t Lowering::moved_pointer(const Place& place) {
   return result;
 }
 
-/// A part is read and written with the whole of which it has bits.
-std::int32_t Lowering::pointed_at(const Place& place, const Type& type) {
-  return unit_.pointed(place.whole != nullptr ? *place.whole : type);
-}
-
 /// What is used as a whole has the address of its cells: it must be of the type of the pointer.
 Value Lowering::located(Value value) {
   if (value.place.base != Place::Base::pointer) return value;
   const auto pointer = moved_pointer(value.place), result = emit_.temporary();
-  emit_.add(Op::point_cells, result, pointer, unit_.pointed(*value.type));
+  emit_.add(Op::point_cells, result, pointer, unit_.pointed(*value.place.pointed));
   value.place = {Place::Base::indirect, 0, result, -1, 0, 0, value.place.writable, value.place.refusal};
   return value;
 }

@@ -121,6 +121,16 @@ TEST(Pointers, AreParametersAndResults) {
   EXPECT_EQ(program.get("a"), "[4, 50, 6]");
 }
 
+TEST(Pointers, AreElementsBehindPointers) {
+  Translated program(
+      "VAR x : INT := 5; list : ARRAY[0..1] OF POINTER TO INT; all : POINTER TO ARRAY[0..1] OF POINTER TO "
+      "INT;\nb : POINTER TO BYTE; low : BYTE; pp : POINTER TO POINTER TO INT; END_VAR",
+      "list[1] := ADR(x); all := ADR(list); all^[1]^ := 6; b := all^[1]; low := b^; pp := ADR(list[1]);\n"
+      "pp^^ := pp^^ + 1; pp^ := NULL;");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("x") + " " + program.get("low") + " " + program.get("list[1]"), "7 6 NULL");
+}
+
 // The PLC stops and names the place; nothing beside the variable is read or written.
 TEST(Pointers, StopOutsideTheirVariable) {
   const auto fault_of = [](const std::string& use) {
