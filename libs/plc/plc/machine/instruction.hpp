@@ -62,7 +62,7 @@ namespace trunnion::st {
   X(is_bcd, w, r, -)           /* a = every digit of b is below 10 */                                  \
   X(swap_bytes, w, r, -)       /* n: as narrow; the bytes of b in reverse order */                     \
   X(check_limits, w, r, r)     /* a = b - c; a fault outside c .. the cell behind c */                 \
-  X(point, w, r, o)            /* a = pointer to the variable at the address in b */                   \
+  X(point, w, r, o)            /* a = pointer to the variable at the address in b, NULL without one */ \
   X(point_move, w, r, r)       /* a = pointer b moved by c bytes, of c the low 32 bits with sign */     \
   X(point_number, w, r, -)     /* a = the number of pointer b, by which pointers are compared */       \
   X(point_load, w, r, o)       /* a = value at pointer b */                                            \

@@ -117,7 +117,8 @@ Fault write_bytes(const Reached& to, std::uint32_t count, std::uint64_t value,
 }  // namespace
 
 std::uint64_t pointer_cell(std::uint64_t address, std::uint32_t entry) {
-  return low_bits(address, address_width) | low_bits(entry, entry_width) << address_width;
+  if (address >= most_cells) return null_pointer;
+  return address | low_bits(entry, entry_width) << address_width;
 }
 
 std::uint64_t pointer_moved(std::uint64_t pointer, std::uint64_t bytes) {

@@ -14,6 +14,7 @@ namespace trunnion::st {
 
 inline constexpr std::uint64_t null_pointer = std::uint64_t{1} << 63;
 
+/// NULL of an address that no memory has, as a reference that is NULL is one.
 std::uint64_t pointer_cell(std::uint64_t address, std::uint32_t entry);
 /// The low 32 bits of `bytes` with their sign. NULL stays NULL, and so far outside that no variable has the
 /// byte the offset stays where it is.

@@ -70,7 +70,7 @@ class Verifier {
       case Pointed::View::number:
         return entry.cells == 1 && entry.form < 256 && width(bits) && entry.bytes == (bits + 7) / 8;
       case Pointed::View::string:
-        return entry.bytes - 1 <= 8 * (entry.cells - 1);
+        return entry.bytes - 1 <= 8 * (entry.cells - 1) && entry.bytes - 1 <= std::uint32_t{longest_string};
     }
     return false;
   }

@@ -68,6 +68,7 @@ Value Lowering::element(const Expression& e, Value value) {
   value.variable = nullptr;
   value.type = type.element;
   value.place = moved(value.place, static_cast<std::int32_t>(offset));
+  if (pointed) value.place.pointed = type.element;
   if (value.place.base == Place::Base::absolute && sum)
     unit_.use_register(static_cast<std::uint32_t>(value.place.offset - offset), type.cells, false);
   if (sum && pointed) {

@@ -187,7 +187,6 @@ Value Lowering::part(const Expression& e) {
   auto value = expression(*e.parts[0]);
   if (value.is_error()) return value;
   if (value.is_constant) return failed(e.at, "a part of a constant is not accessible");
-  value = located(value);
   const auto kind = value.type->kind;
   const int whole = bits(kind);
   const bool of_bits = is_bits(kind) && whole >= 8;

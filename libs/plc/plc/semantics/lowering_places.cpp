@@ -141,14 +141,12 @@ std::int32_t Lowering::address(const Value& value) {
 std::int32_t Lowering::load(const Place& place, const Type& type) {
   if (place.base == Place::Base::frame && place.bit < 0 && place.form == 0) return place.offset;
   const auto result = emit_.temporary();
-  if (place.base == Place::Base::pointer) {
-    emit_.add(Op::point_load, result, moved_pointer(place), unit_.pointed(type));
-    return result;
-  }
   auto raw = place.offset;
   if (place.base != Place::Base::frame) {
     raw = result;
-    if (place.base == Place::Base::absolute)
+    if (place.base == Place::Base::pointer)
+      emit_.add(Op::point_load, result, moved_pointer(place), unit_.pointed(*place.pointed));
+    else if (place.base == Place::Base::absolute)
       emit_.add(Op::load, result, place.offset);
     else
       emit_.add(Op::load_at, result, place.cell, place.offset);
@@ -216,7 +214,7 @@ void Lowering::store_cell(const Place& place, const Type& type, std::int32_t sou
       emit_.add(Op::save_at, source, place.cell, place.offset);
       break;
     case Place::Base::pointer:
-      emit_.add(Op::point_save, source, moved_pointer(place), unit_.pointed(type));
+      emit_.add(Op::point_save, source, moved_pointer(place), unit_.pointed(*place.pointed));
       break;
     case Place::Base::none:
       break;

@@ -121,7 +121,7 @@ Value Lowering::pointed_by(const Value& pointer, Position at) {
   if (is_incomplete(element)) return refused_incomplete(element, at);
   Value result;
   result.type = &element;
-  result.place = {Place::Base::pointer, 0, cell(pointer), -1, 0, 0, true, ""};
+  result.place = {Place::Base::pointer, 0, cell(pointer), -1, 0, 0, true, "", &element};
   return result;
 }
 
@@ -137,7 +137,7 @@ std::int32_t Lowering::moved_pointer(const Place& place) {
 Value Lowering::located(Value value) {
   if (value.place.base != Place::Base::pointer) return value;
   const auto pointer = moved_pointer(value.place), result = emit_.temporary();
-  emit_.add(Op::point_cells, result, pointer, unit_.pointed(*value.type));
+  emit_.add(Op::point_cells, result, pointer, unit_.pointed(*value.place.pointed));
   value.place = {Place::Base::indirect, 0, result, -1, 0, 0, value.place.writable, value.place.refusal};
   return value;
 }

@@ -212,9 +212,13 @@ bool same_type(const Type& a, const Type& b) {
   }
   // A type with an initial value of its own is the same type.
   const auto named = [](const auto& x, const auto& y) { return x.name == y.name; };
+  // Structures without a name of their own all have the same one.
+  const auto same_field = [](const Field& x, const Field& y) {
+    return x.name == y.name && same_limited_type(*x.type, *y.type);
+  };
   if (a.kind == Kind::structure)
     return a.name == b.name &&
-           std::equal(a.fields.begin(), a.fields.end(), b.fields.begin(), b.fields.end(), named);
+           std::equal(a.fields.begin(), a.fields.end(), b.fields.begin(), b.fields.end(), same_field);
   if (a.kind == Kind::enumeration)
     return a.name == b.name && std::equal(a.enumerators.begin(), a.enumerators.end(), b.enumerators.begin(),
                                           b.enumerators.end(), named);

@@ -20,7 +20,8 @@ struct Place {
   int bit = -1, width = 0;  ///< of a partial access: first bit and bits
   std::uint16_t form = 0;   ///< of a register whose cell has another form than the type; see Op::narrow
   bool writable = false;
-  std::string refusal;  ///< why it is not writable, as the end of a sentence
+  std::string refusal;            ///< why it is not writable, as the end of a sentence
+  const Type* pointed = nullptr;  ///< behind a pointer: of what it reads and writes
 };
 
 struct Value {

@@ -104,6 +104,14 @@ TEST(CodesysExport, KeepsPointersInNumbers) {
   EXPECT_EQ(program.get("u") + " " + program.get("d"), "'ABC' 7");
 }
 
+// What is behind a pointer is read with the bytes of its own type, whatever it is computed in: of UDINT 4.
+TEST(CodesysExport, ComputesWithWhatPointersReach) {
+  Export program(
+      "u : UDINT := 5; d : DWORD := 7; pu : POINTER TO UDINT; pd : POINTER TO DWORD; i, k : DINT; b : BOOL;",
+      "pu := ADR(u); pd := ADR(d); i := -pu^; k := -pd^ + 1; b := pd^ > pu^;");
+  EXPECT_EQ(program.get("i") + " " + program.get("k") + " " + program.get("b"), "-5 -6 TRUE");
+}
+
 // BYTE 200 + 100 is computed in 32 bits; of 300 a BYTE takes 300 - 256 = 44.
 TEST(CodesysExport, ComputesWithBitStrings) {
   Export program(

@@ -83,6 +83,20 @@ TEST(Pointers, ReachTheBytesOfNumbers) {
   EXPECT_EQ(program.get("words"), "[255, 0]");   // 16#FFFF, then its high byte and the next low one are 0
 }
 
+// 'a' is 16#61 and 'A' without bit 5; bit 16 of -2 counts 65536; bit 31 of a REAL is its sign.
+TEST(Pointers, ReachTheBitsOfBytes) {
+  Translated program(
+      "VAR text : STRING[5] := 'ab'; i : DINT := -2; r : REAL := 1.0; pb : POINTER TO BYTE; pw : POINTER TO "
+      "WORD;\npd : POINTER TO DWORD; bit, sign : BOOL; w : WORD; END_VAR",
+      "pb := ADR(text); bit := pb^.%X6; pb^.%X5 := FALSE; pd := ADR(i); pd^.%X16 := FALSE; pd := ADR(r);\n"
+      "pd^.%X31 := TRUE; sign := pd^.%W1.%X15; pw := ADR(w); pw^.%B1 := 16#12;");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("bit") + program.get("text"), "TRUE'Ab'");
+  EXPECT_EQ(program.get("i"), "-65538");
+  EXPECT_EQ(program.get("r") + program.get("sign"), "-1.0TRUE");
+  EXPECT_EQ(program.get("w"), "4608");  // 16#1200
+}
+
 TEST(Pointers, AreParametersAndResults) {
   Translated program(
       "VAR a : ARRAY[1..3] OF INT := [4, 5, 6]; total : INT; c : Count; text : STRING[20] := 'a b c';\n"
@@ -107,20 +121,32 @@ TEST(Pointers, AreParametersAndResults) {
   EXPECT_EQ(program.get("a"), "[4, 50, 6]");
 }
 
+TEST(Pointers, AreElementsBehindPointers) {
+  Translated program(
+      "VAR x : INT := 5; list : ARRAY[0..1] OF POINTER TO INT; all : POINTER TO ARRAY[0..1] OF POINTER TO "
+      "INT;\nb : POINTER TO BYTE; low : BYTE; pp : POINTER TO POINTER TO INT; END_VAR",
+      "list[1] := ADR(x); all := ADR(list); all^[1]^ := 6; b := all^[1]; low := b^; pp := ADR(list[1]);\n"
+      "pp^^ := pp^^ + 1; pp^ := NULL;");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("x") + " " + program.get("low") + " " + program.get("list[1]"), "7 6 NULL");
+}
+
 // The PLC stops and names the place; nothing beside the variable is read or written.
 TEST(Pointers, StopOutsideTheirVariable) {
   const auto fault_of = [](const std::string& use) {
     Translated program(
         "VAR x, i : INT; p : POINTER TO INT; a : ARRAY[0..3] OF REAL; all : POINTER TO ARRAY[0..99] OF REAL; "
         "r : REAL; s : STRING[10]; b : POINTER TO BYTE; times : ARRAY[0..1] OF TIME; t : POINTER TO TIME; v "
-        ": TIME; whole : ARRAY[0..99] OF REAL; pts : ARRAY[0..1] OF Pt; pp : POINTER TO Pt; END_VAR",
+        ": TIME; whole : ARRAY[0..99] OF REAL; pts : ARRAY[0..1] OF Pt; pp : POINTER TO Pt;\n"
+        "none : REF_TO INT; point : REF_TO Pt; row : REF_TO ARRAY[0..3] OF REAL; END_VAR",
         use, types);
     const auto fault = program.scan();
-    EXPECT_THAT(fault, HasSubstr("t.st:4:")) << use;
+    EXPECT_THAT(fault, HasSubstr("t.st:5:")) << use;
     return fault;
   };
   for (const char* use :
-       {"p^ := 1;", "i := p^;", "pp^.x := 1;", "r := all^[1];", "p := NULL; p := p + 2; p^ := 1;"})
+       {"p^ := 1;", "i := p^;", "pp^.x := 1;", "r := all^[1];", "p := NULL; p := p + 2; p^ := 1;",
+        "p := ADR(none^); p^ := 1;", "p := ADR(point^.y); i := p^;", "all := ADR(row^[1]); all^[0] := 1.0;"})
     EXPECT_THAT(fault_of(use), HasSubstr("a reference to no variable")) << use;
   EXPECT_THAT(fault_of("p := ADR(x) + 2; p^ := 1;"),
               HasSubstr("a pointer to byte 3 of a variable with the bytes 0 .. 1"));
@@ -202,6 +228,20 @@ TEST(Pointers, AreRefusedWithOneClearLine) {
               HasSubstr("'i' is gone after the method, but VAR_IN_OUT 'w' has pointers"));
 }
 
+// They have one field of the same name, but of 2 and of 21 bytes.
+TEST(Pointers, TellStructuresWithoutNameApart) {
+  const std::string declarations =
+      "VAR a : STRUCT x : INT; END_STRUCT; pa : POINTER TO STRUCT x : INT; END_STRUCT;\n"
+      "b : STRUCT x : STRING[20]; END_STRUCT; pb : POINTER TO STRUCT x : STRING[20]; END_STRUCT; END_VAR\n";
+  Translated program(declarations, "pa := ADR(a); pa^.x := 3; pb := ADR(b); pb^.x := 'text';");
+  EXPECT_EQ(program.scan(), "");
+  EXPECT_EQ(program.get("a.x") + program.get("b.x"), "3'text'");
+  for (const char* wrong : {"pa := ADR(b);", "a := b;", "b := pa^;"}) {
+    const auto text = "PROGRAM main " + declarations + wrong + " END_PROGRAM\n";
+    EXPECT_FALSE(compile({{"t.st", text}}, interface_registers()).good()) << wrong;
+  }
+}
+
 TEST(Pointers, BeginWithTheirInitialValuesInNewPrograms) {
   const auto translated = [](const std::string& more) {
     return compile({{"t.st", "PROGRAM main VAR x : INT; p : POINTER TO INT; END_VAR p := ADR(x); " + more +
@@ -239,6 +279,7 @@ TEST(Pointers, CountBytesWithinTheirLimits) {
   EXPECT_EQ(pointer_offset(pointer_moved(pointer, 0x80000000u)), -farthest);
   EXPECT_EQ(pointer_moved(null_pointer, 4), null_pointer);
   EXPECT_EQ(pointer_number(null_pointer), 0u);
+  EXPECT_EQ(pointer_cell(most_cells, 3), null_pointer);
 }
 
 TEST(Pointers, AreVerifiedBeforeTheyRun) {
@@ -255,6 +296,12 @@ TEST(Pointers, AreVerifiedBeforeTheyRun) {
     auto other = code;
     change(other.pointed[0]);
     EXPECT_NE(verify(other), "");
+  }
+  // The longest STRING has 1000 bytes and the byte 0.
+  for (const auto& [bytes, good] : {std::pair{1001u, true}, std::pair{1002u, false}}) {
+    auto other = code;
+    other.pointed.push_back({Pointed::View::string, 7, 1, 200, bytes, 0});
+    EXPECT_EQ(verify(other).empty(), good) << bytes;
   }
   for (auto& in : code.code)
     if (in.op == Op::point_load) in.c = 1;
