@@ -18,8 +18,6 @@ constexpr int most_refinements = 40;
 constexpr double circle_bias = 1e-4;
 // How fast the width may change along the curve: by its own size and by this share of the way.
 constexpr double width_slope = 0.6;
-// A span may not be shorter than this share of the tube.
-constexpr double shortest_span = 0.02;
 // Share of a window that is taken, and the widths that have to lie between its end and what is taken.
 constexpr double taken_share = 0.7, widths_ahead = 5;
 // Spans that the taken ones have knots of.

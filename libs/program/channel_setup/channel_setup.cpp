@@ -18,9 +18,8 @@ namespace {
 
 constexpr double turn_worth_a_move = 1e-6;  // degrees
 constexpr std::uint32_t most_vector_pieces = 1024;
-constexpr double straight_on = 180;      // degrees: interior angle and turn of a corner together
-constexpr int first_plane = 17;          // G17
-constexpr int spindle_axis_number = -2;  // of a letter that is a spindle in position mode
+constexpr double straight_on = 180;  // degrees: interior angle and turn of a corner together
+constexpr int first_plane = 17;      // G17
 
 // An axis that the chain turns and that nothing moves would stay at zero without a word.
 void check_chain_axes(const geometry::Chain& chain, const machine::ChannelAxes& axes, std::uint16_t channel) {

@@ -2,7 +2,7 @@
 // What an operator sets of a channel beside its state.
 #pragma once
 
-#include "language/codes.hpp"
+#include "language/block.hpp"
 
 namespace trunnion::channel {
 
