@@ -7,7 +7,7 @@ Checked by check_structure.py:
 
 - no two libraries have one name, for an include names the library alone
 - the top CMakeLists.txt has each module in one piece, none before what it uses: then the arrows make no circle
-- the README.md of a module has a row for each of its libraries, names the modules that it uses, and paths that are there
+- the README.md of a module has a row with the content of each of its libraries, names the modules that it uses, and paths that are there
 - the picture and the table in docs/architecture.md are current
 
     modules.py             prints who uses whom, and by which libraries
@@ -115,8 +115,8 @@ def check_readme(module):
     path = f"libs/{module}/README.md"
     if not os.path.exists(os.path.join(ROOT, path)): return [f"{path} is not there"]
     text = read(path)
-    rows = [label for label, target in re.findall(r"^\| \[(\w+)/\]\((\w+)\) \|", text, re.M) if label == target]
-    errors = [f"{path}: {name} has no row, or one and is not there" for name in sorted(set(directories(f"libs/{module}")) ^ set(rows))]
+    rows = [label for label, target in re.findall(r"^\| \[(\w+)/\]\((\w+)\) \| *[^ |]", text, re.M) if label == target]
+    errors = [f"{path}: {name} has no row with its content, or one and is not there" for name in sorted(set(directories(f"libs/{module}")) ^ set(rows))]
     uses = re.search(r"^Uses .*?\n\n", text + "\n", re.M | re.S)
     named = set(re.findall(r"\]\(\.\./(\w+)\)", uses[0])) if uses else set()
     errors += [f"{path}: says that it uses {name}, and nothing does" for name in sorted(named - set(arrows()[module]))]
