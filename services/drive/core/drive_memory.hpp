@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The content of encoders.bin in the state directory, which DriveService saves.
 #pragma once
 
 #include <array>
