@@ -36,8 +36,8 @@ Seen plan(const std::string& program, const Settings& settings) {
   return seen;
 }
 
-const std::string corner = "G21 G17 G90 G94 G64\nG1 X10 F600\nY10\nM30\n";
-const std::string circle = "G21 G17 G90 G94 G64\nG0 X20\nG3 X20 Y0 I-20 J0 F12000\nM30\n";
+const std::string corner_program = "G21 G17 G90 G94 G64\nG1 X10 F600\nY10\nM30\n";
+const std::string circle_program = "G21 G17 G90 G94 G64\nG0 X20\nG3 X20 Y0 I-20 J0 F12000\nM30\n";
 
 std::string in_mode(const std::string& program, int mode) {
   return "G5.1 Q" + std::to_string(mode) + "\n" + program;
@@ -78,8 +78,8 @@ TEST(PathParameters, minimum_smooth_interior_angle_decides_whether_motion_stops_
     return plan(program, {{number, angle}, {40901, 0.1}, {40992, 0.1}, {40993, 0.1}}).slowest;
   };
   for (const auto& [mode, number] : {std::pair(0, 40903u), {1, 40996u}, {2, 40997u}}) {
-    EXPECT_GT(slowest(in_mode(corner, mode), number, 80), 5) << number;
-    EXPECT_EQ(slowest(in_mode(corner, mode), number, 120), 0) << number;
+    EXPECT_GT(slowest(in_mode(corner_program, mode), number, 80), 5) << number;
+    EXPECT_EQ(slowest(in_mode(corner_program, mode), number, 120), 0) << number;
   }
 }
 
@@ -89,7 +89,8 @@ TEST(PathParameters, centripetal_acceleration_bounds_the_speed_in_curves) {
   for (const auto& [mode, number] : {std::pair(0, 40904u), {1, 40998u}, {2, 40999u}}) {
     for (const double a : {200.0, 800.0}) {
       const double speed = std::sqrt(a * 20);
-      const double found = plan(in_mode(circle, mode), {{number, a}, {100034, 1000}, {101034, 1000}}).fastest;
+      const double found =
+          plan(in_mode(circle_program, mode), {{number, a}, {100034, 1000}, {101034, 1000}}).fastest;
       EXPECT_LE(found, speed * 1.001) << number;
       EXPECT_GE(found, speed * 0.97) << number;
     }
