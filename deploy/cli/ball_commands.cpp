@@ -149,7 +149,7 @@ bus::Json json_of(const identification::AxisLocation& location) {
   return {{"errors", errors}, {"not_shown", location.hidden}, {"residual_um", location.residual * um}};
 }
 
-void print(const identification::AxisLocation& location, const std::string& how) {
+void print_location(const identification::AxisLocation& location, const std::string& how) {
   for (const auto& e : location.errors) {
     const double unit = e.angle ? urad : um;
     print_figure(
@@ -293,8 +293,8 @@ int r_test(CommandOptions o, const Common& common) {
   for (const auto& h : result.pitch)
     print_figure("pitch error, harmonic " + std::to_string(h.order), h.amplitude * um,
                  fmt::format("um at {:.2f} rad/s", static_cast<double>(h.order) * speed));
-  print(result.location, "dynamic");
-  if (standing) print(standing->location, "static");
+  print_location(result.location, "dynamic");
+  if (standing) print_location(standing->location, "static");
   return 0;
 }
 
