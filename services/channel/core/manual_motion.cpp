@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "manual_motion.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "machine/alarm_constants.hpp"
 #include "text/quantity.hpp"
@@ -61,12 +62,9 @@ std::variant<AxisMove, Refusal> ManualMotion::jog(std::uint8_t index, double fee
   const double direction = feed > 0 ? 1 : -1;
   const double position = from[a] + offset_.target()[a];
   const double end = direction > 0 ? travel.positive : travel.negative;
-  if ((end - position) * direction <= 0) {
-    std::string reason = "Axis ";
-    reason += language::axis_letters[a];
-    reason += " is at its travel limit";
-    return Refusal{&alarm::travel_limit, std::move(reason)};
-  }
+  if ((end - position) * direction <= 0)
+    return Refusal{&alarm::travel_limit,
+                   fmt::format("Axis {} is at its travel limit", language::axis_letters[a])};
   const double distance = increment > 0 ? direction * increment : end - position;
   return AxisMove{a, from[a] + distance, std::abs(feed)};
 }
