@@ -59,6 +59,7 @@ std::string shortened(std::string text, std::size_t most) {
   if (text.size() <= most) return text;
   std::size_t end = most - mark.size();
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u) --end;
+  while (end > 0 && text[end - 1] == ' ') --end;
   text.replace(end, std::string::npos, mark);
   return text;
 }

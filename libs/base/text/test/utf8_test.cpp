@@ -26,6 +26,7 @@ TEST(Shortened, LeavesWhatFitsAndMarksWhatDoesNot) {
   EXPECT_EQ(shortened("", 8), "");
   EXPECT_EQ(shortened("12345678", 8), "12345678");
   EXPECT_EQ(shortened("123456789", 8), "1234 ...");
+  EXPECT_EQ(shortened("12  56789", 8), "12 ...");
   EXPECT_EQ(shortened("123456789", 4), " ...");
 }
 

@@ -132,7 +132,7 @@ TEST(Plcopen, FunctionsAreInstructionsOfLists) {
       if (line.find(": error: ") != std::string::npos) return line;
     return std::string();
   };
-  EXPECT_THAT(refused("LOAD x\nST r"), testing::HasSubstr("there is no current result: LD comes first"));
+  EXPECT_THAT(refused("LOAD x\nST r"), testing::HasSubstr("unknown instruction 'LOAD'"));
   EXPECT_THAT(refused("LD x\nLOAD r"), testing::HasSubstr("unknown instruction 'LOAD'"));
   EXPECT_THAT(refused("LOAD(x)\nST r"), testing::HasSubstr("there is no function 'LOAD'"));
   EXPECT_THAT(refused("ABS\nST r"), testing::HasSubstr("there is no current result: LD comes first"));

@@ -42,7 +42,9 @@ class ListRun {
 
 std::string list_error(const std::string& source, const std::string& name = "t.il") {
   const auto lines = compile({{name, source}}, interface_registers()).lines();
-  return lines.empty() ? "" : lines[0];
+  for (const auto& line : lines)
+    if (line.find(": error: ") != std::string::npos) return line;
+  return "";
 }
 
 struct ListLogic {

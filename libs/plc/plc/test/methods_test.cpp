@@ -21,9 +21,9 @@ constexpr const char* counter_block =
     "FUNCTION_BLOCK Counter\n"
     "VAR_OUTPUT n : INT; END_VAR VAR step : INT := 2; END_VAR\n"
     "METHOD PUBLIC raise : INT\n"
-    "VAR_INPUT by : INT := 3; END_VAR VAR_OUTPUT before : INT; END_VAR VAR_IN_OUT calls : INT; END_VAR\n"
+    "VAR_INPUT amount : INT := 3; END_VAR VAR_OUTPUT before : INT; END_VAR VAR_IN_OUT calls : INT; END_VAR\n"
     "VAR last : INT := 1; END_VAR\n"
-    "before := n; last := last + by * step; n := n + last; calls := calls + 1; raise := n;\n"
+    "before := n; last := last + amount * step; n := n + last; calls := calls + 1; raise := n;\n"
     "END_METHOD\n"
     "n := n + 100;\n"
     "END_FUNCTION_BLOCK\n";
@@ -34,7 +34,7 @@ TEST(Methods, UseTheVariablesOfTheirInstance) {
   Translated program("VAR c, d : Counter; a, b, e, w, calls, i : INT; list : ARRAY[0..1] OF Counter; END_VAR",
                      "a := c.raise(calls := calls, before => w); b := c.raise(5, calls);\n"
                      "e := list[i].raise(calls := calls); d(); i := d.n - 99;\n"
-                     "list[i].raise(calls := calls, by := 0);",
+                     "list[i].raise(calls := calls, amount := 0);",
                      counter_block);
   EXPECT_EQ(verify(*program.compilation.code), "");
   EXPECT_EQ(program.scan(), "");
