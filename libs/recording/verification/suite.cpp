@@ -172,8 +172,8 @@ std::vector<std::string> verify_arguments(const Suite& suite, const SuiteTest& t
   if (const auto own = entry.executables.find(test.process.service); own != entry.executables.end())
     add("--exec", own->second);
   for (const auto& [field, value] : entry.tolerances) {
-    const auto text = fmt::format("{:.17g}", value);
-    add("--tolerance", field.empty() ? text : field + "=" + text);
+    add("--tolerance",
+        field.empty() ? fmt::format("{:.17g}", value) : fmt::format("{}={:.17g}", field, value));
   }
   if (const auto required = entry.required.find(test.process.service); required != entry.required.end())
     for (const auto& feature : required->second) add("--require", feature);

@@ -115,7 +115,8 @@ void Unit::check_abstract(const Pou& block) {
   if (block.declaration->is_abstract) return;
   for (const Pou* one = &block; one != nullptr; one = one->parent)
     for (const auto& declaration : one->declaration->methods)
-      if (const auto found = find_method(block, declaration.name); found.declaration->is_abstract)
+      if (const auto found = find_method(block, declaration.name);
+          found.declaration != nullptr && found.declaration->is_abstract)
         diagnostics_.error(block.declaration->at, "'" + block.declaration->text + "' has the method '" +
                                                       declaration.text + "', which is ABSTRACT in '" +
                                                       found.declared_in->declaration->text +
