@@ -13,7 +13,7 @@ FUZZ_SECONDS ?= 6
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
 .PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak hostile hostile_bus recordings histories rests \
-  nightly coverage package clean
+  oscat nightly coverage package clean
 
 run: product
 	$(TRUNNION) run ac-table nas979_cone --report out
@@ -51,9 +51,9 @@ cmake_configure = mkdir -p build; echo "Configuring build/$(1)"; \
 
 # The unit tests under the address and undefined-behaviour sanitizers. PART=foreign: those of what reads bytes that others have
 # written - programs, configuration, files of the state directory, recordings, the network.
-foreign := access bus commands error_tables gateway_core http_client language machine machine_state measurement parameter_store \
-  plc plc_language plc_modbus plc_online program_store programs recorder recording service snapshot storage text tool_tables truth \
-  verification
+foreign := access bus commands gateway_core http_client language machine machine_state measurement parameter_store \
+  plc plc_language plc_modbus plc_online program_store programs recorder recording service snapshot storage text truth \
+  verification volumetric_compensation
 sanitize: packages
 	@$(call cmake_configure,sanitize)
 	cmake --build --preset sanitize $(if $(PART),--target $(addsuffix _test,$($(PART))))
@@ -124,6 +124,10 @@ histories: build
 # Every service swapped and killed at every kind of rest, also long ones.
 rests: build
 	TRUNNION_ALL_RESTS=1 $(BUILD)/bin/rests_test
+
+# OSCAT=DIR: the exports of OSCAT Basic, which is not a part of this repository. Compiles it and checks results of its functions.
+oscat: product
+	OSCAT='$(OSCAT)' tools/oscat/check_oscat.py $(TRUNNION)
 
 # Continues where an interrupted run of the same commit was.
 nightly:

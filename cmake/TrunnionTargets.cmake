@@ -58,6 +58,7 @@ add_custom_target(thread_tests)
 # trunnion_headers(target PUBLIC|INTERFACE): the target and what links it may include the headers of this folder as
 # "<folder>/file.hpp". Every library has an include root of its own in the build directory, with a link to its folder in it,
 # so an include of a library that is not linked does not compile.
+# No two libraries have one name, in whatever module of libs/ they are.
 function(trunnion_headers target scope)
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(root ${CMAKE_BINARY_DIR}/include/${folder})

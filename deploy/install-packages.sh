@@ -9,7 +9,7 @@ packages=(
   build-essential cmake ninja-build ccache mold git python3 python3-yaml pkg-config
   libfastrtps-dev libfastcdr-dev libasio-dev libtinyxml2-dev libssl-dev cyclonedds-dev
   cyclonedds-tools libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev  # small, and CMake asks for them
-  libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libboost-dev libzstd-dev zlib1g-dev libpugixml-dev libmodbus-dev libargon2-dev libarchive-dev procps
+  libeigen3-dev libyaml-cpp-dev libfmt-dev nlohmann-json3-dev libcli11-dev libboost-dev libzstd-dev zlib1g-dev libpugixml-dev libmodbus-dev libargon2-dev libarchive-dev procps
   libfcl-dev libompl-dev libboost-serialization-dev libboost-filesystem-dev libboost-system-dev  # collision
 )
 case "${1:-test}" in

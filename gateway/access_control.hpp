@@ -12,8 +12,8 @@
 #include "access/sessions.hpp"
 #include "access/user_file.hpp"
 #include "answer.hpp"
-#include "src/router.hpp"
-#include "src/worker.hpp"
+#include "core/router.hpp"
+#include "core/worker.hpp"
 
 namespace trunnion::gateway {
 

@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "src/paging.hpp"
-#include "src/worker.hpp"
+#include "core/paging.hpp"
+#include "core/worker.hpp"
 
 namespace trunnion::gateway {
 

@@ -12,8 +12,8 @@
 
 #include "access/sessions.hpp"
 #include "bus/json.hpp"
-#include "src/body_source.hpp"
-#include "src/journal.hpp"
+#include "core/body_source.hpp"
+#include "core/operator_journal.hpp"
 
 namespace trunnion::gateway {
 

@@ -5,12 +5,12 @@
 #include <fstream>
 
 #include "commands/command_table.hpp"
+#include "core/paging.hpp"
+#include "core/precondition.hpp"
+#include "core/requests.hpp"
+#include "core/rights.hpp"
+#include "core/static_files.hpp"
 #include "machine/alarm_constants.hpp"
-#include "src/paging.hpp"
-#include "src/precondition.hpp"
-#include "src/requests.hpp"
-#include "src/rights.hpp"
-#include "src/static_files.hpp"
 #include "storage/crc32.hpp"
 
 namespace trunnion::gateway {
@@ -19,7 +19,7 @@ namespace {
 
 using bus::Json;
 
-constexpr std::chrono::seconds shown_within{1};  // what the cluster has accepted is in the snapshot by then
+constexpr std::chrono::seconds shown_within{1};  // what the cluster has accepted is in the state by then
 
 Answer silent(const char* who) {
   return error_answer(504, std::string("no answer from the ") + who + " service");
@@ -187,28 +187,28 @@ void Api::carry_out(const Match& match, const RequestText& request, const Respon
 
 Answer Api::read(const Match& match, const std::string& query) const {
   if (match.operation == Operation::openapi) return {200, openapi_text};
-  const auto snapshot = mailbox_.newest();
-  if (!snapshot) return error_answer(503, "the gateway is starting");
+  const auto cluster = mailbox_.newest();
+  if (!cluster) return error_answer(503, "the gateway is starting");
   switch (match.operation) {
     case Operation::status:
-      return json_answer(200, status_answer(*snapshot, contract_));
+      return json_answer(200, status_answer(*cluster, contract_));
     case Operation::alarms:
-      return list_answer(alarms_answer(*snapshot), "alarms", query);
+      return list_answer(alarms_answer(*cluster), "alarms", query);
     case Operation::past_alarms:
-      return list_answer(past_alarms_answer(*snapshot, query_value(query, "search")), "alarms", query);
+      return list_answer(past_alarms_answer(*cluster, query_value(query, "search")), "alarms", query);
     case Operation::channels:
-      return json_answer(200, channels_answer(*snapshot));
+      return json_answer(200, channels_answer(*cluster));
     case Operation::channel: {
       const auto number = path_number(match.parts.at(0), 65535);
       const auto answer =
-          number ? channel_answer(*snapshot, static_cast<std::uint16_t>(*number)) : Json(nullptr);
+          number ? channel_answer(*cluster, static_cast<std::uint16_t>(*number)) : Json(nullptr);
       return answer.is_null() ? error_answer(404, "no channel " + match.parts[0]) : json_answer(200, answer);
     }
     case Operation::variables: {
       const auto number = path_number(match.parts.at(0), 65535);
       const auto found =
-          number ? snapshot->variables.find(static_cast<std::uint16_t>(*number)) : snapshot->variables.end();
-      if (found == snapshot->variables.end())
+          number ? cluster->variables.find(static_cast<std::uint16_t>(*number)) : cluster->variables.end();
+      if (found == cluster->variables.end())
         return error_answer(404, "no variables of channel " + match.parts[0]);
       return json_answer(200, bus::to_json(*found->second));
     }
@@ -218,26 +218,26 @@ Answer Api::read(const Match& match, const std::string& query) const {
       wanted.search = query_value(query, "search");
       wanted.offset = count_in_query(query, "offset", 0);
       wanted.limit = count_in_query(query, "limit", 500);
-      return tagged(published(parameters_answer(*snapshot, wanted), "parameters"), snapshot->parameters_tag);
+      return tagged(published(parameters_answer(*cluster, wanted), "parameters"), cluster->parameters_tag);
     }
     case Operation::parameter: {
       const auto number = path_number(match.parts.at(0), 999999);
       if (!number || machine::Catalogue::instance().find(*number) == nullptr)
         return error_answer(404, "no parameter " + match.parts[0]);
-      return tagged(published(parameter_answer(*snapshot, *number), "parameters"), snapshot->parameters_tag);
+      return tagged(published(parameter_answer(*cluster, *number), "parameters"), cluster->parameters_tag);
     }
     case Operation::tools:
-      if (!snapshot->tools) return published(snapshot->tools, "parameters");
-      return tagged(list_answer(bus::to_json(*snapshot->tools), "tools", query),
-                    entity_tag(snapshot->tools->revision));
+      if (!cluster->tools) return published(cluster->tools, "parameters");
+      return tagged(list_answer(bus::to_json(*cluster->tools), "tools", query),
+                    entity_tag(cluster->tools->revision));
     case Operation::work_offsets:
-      return tagged(published(snapshot->offsets, "parameters"),
-                    entity_tag(snapshot->offsets ? snapshot->offsets->revision : 0));
+      return tagged(published(cluster->offsets, "parameters"),
+                    entity_tag(cluster->offsets ? cluster->offsets->revision : 0));
     case Operation::programs:
-      if (!snapshot->programs) return published(snapshot->programs, "program");
-      return list_answer(bus::to_json(*snapshot->programs), "programs", query);
+      if (!cluster->programs) return published(cluster->programs, "program");
+      return list_answer(bus::to_json(*cluster->programs), "programs", query);
     case Operation::plc_image:
-      return published(snapshot->image, "plc");
+      return published(cluster->image, "plc");
     default:
       return error_answer(404, "no such path");
   }
@@ -246,10 +246,10 @@ Answer Api::read(const Match& match, const std::string& query) const {
 void Api::send_channel(const Match& match, const Json& body, const std::optional<access::Identity>& user,
                        const Respond& respond) {
   const auto number = path_number(match.parts.at(0), 65535);
-  const auto snapshot = mailbox_.newest();
-  const auto known = snapshot && number ? snapshot->channels.find(static_cast<std::uint16_t>(*number))
-                                        : decltype(snapshot->channels.end()){};
-  if (!snapshot || !number || known == snapshot->channels.end())
+  const auto cluster = mailbox_.newest();
+  const auto known = cluster && number ? cluster->channels.find(static_cast<std::uint16_t>(*number))
+                                       : decltype(cluster->channels.end()){};
+  if (!cluster || !number || known == cluster->channels.end())
     return respond(error_answer(404, "no channel " + match.parts[0]));
   auto request = channel_request(match.command, body, known->second);
   request.role = role_of(user);
@@ -299,8 +299,8 @@ std::optional<Answer> Api::parameter_refusal(const idl::parameters::ParameterReq
 std::string Api::changed_meanwhile(const Match& match, const std::string& if_match,
                                    idl::parameters::ParameterRequest& request) const {
   if (if_match.empty()) return {};
-  const auto snapshot = mailbox_.newest();
-  if (!snapshot || !snapshot->parameters || !snapshot->tools || !snapshot->offsets)
+  const auto cluster = mailbox_.newest();
+  if (!cluster || !cluster->parameters || !cluster->tools || !cluster->offsets)
     return "the parameters service has not published yet";
   const auto check = [&](const std::string& now) {
     return if_match == "*" || if_match == now ? std::string()
@@ -312,12 +312,12 @@ std::string Api::changed_meanwhile(const Match& match, const std::string& if_mat
     if (if_match != "*" && request.revision == 0) request.revision = revision;
     return check(entity_tag(revision));
   };
-  if (match.operation == Operation::set_work_offset) return check_table(snapshot->offsets->revision);
+  if (match.operation == Operation::set_work_offset) return check_table(cluster->offsets->revision);
   if (match.operation == Operation::set_tool || match.operation == Operation::remove_tool)
-    return check_table(snapshot->tools->revision);
-  if (sent_.from == snapshot->parameters && std::chrono::steady_clock::now() - sent_.since < shown_within)
+    return check_table(cluster->tools->revision);
+  if (sent_.from == cluster->parameters && std::chrono::steady_clock::now() - sent_.since < shown_within)
     return "another change of the parameters is under way: read the values again";
-  return check(snapshot->parameters_tag);
+  return check(cluster->parameters_tag);
 }
 
 void Api::send_parameters(const Match& match, const Json& body, const RequestText& text,
@@ -343,8 +343,8 @@ void Api::send_parameters(const Match& match, const Json& body, const RequestTex
   if (const auto changed = changed_meanwhile(match, text.if_match, request); !changed.empty())
     return respond(error_answer(412, changed));
   if (match.operation == Operation::set_parameter || match.operation == Operation::set_parameters)
-    if (const auto snapshot = mailbox_.newest())
-      sent_ = {snapshot->parameters, std::chrono::steady_clock::now()};
+    if (const auto cluster = mailbox_.newest())
+      sent_ = {cluster->parameters, std::chrono::steady_clock::now()};
   if (text.user) request.who = text.user->name;  // who is logged in, whatever the body says
   request.role = role_of(text.user);
   mailbox_.post([request, respond](Links& links, double now) {
@@ -392,19 +392,19 @@ std::uint64_t Api::stored_lately(const std::string& name) {
 
 void Api::check(const Match& match, const std::string& text, const Respond& respond) {
   const auto number = path_number(match.parts.at(0), 31);
-  const auto snapshot = mailbox_.newest();
-  if (!snapshot || !number || !snapshot->channels.contains(static_cast<std::uint16_t>(*number)))
+  const auto cluster = mailbox_.newest();
+  if (!cluster || !number || !cluster->channels.contains(static_cast<std::uint16_t>(*number)))
     return respond(error_answer(404, "no channel " + match.parts[0]));
-  checker_.submit({text, static_cast<std::uint16_t>(*number), snapshot, respond});
+  checker_.submit({text, static_cast<std::uint16_t>(*number), cluster, respond});
 }
 
 void Api::plan(const Match& match, const std::string& query, const Respond& respond) {
   const auto text = query_value(query, "channel");
   const auto number = path_number(text.empty() ? "0" : text, 31);
-  const auto snapshot = mailbox_.newest();
-  if (!snapshot || !number || !snapshot->channels.contains(static_cast<std::uint16_t>(*number)))
+  const auto cluster = mailbox_.newest();
+  if (!cluster || !number || !cluster->channels.contains(static_cast<std::uint16_t>(*number)))
     return respond(problem_answer(404, "no channel " + text));
-  planner_.submit({match.parts.at(0), static_cast<std::uint16_t>(*number), snapshot, respond});
+  planner_.submit({match.parts.at(0), static_cast<std::uint16_t>(*number), cluster, respond});
 }
 
 void Api::page(const std::string& path, bool gzip, const Respond& respond) {

@@ -12,6 +12,7 @@
 #include "answer.hpp"
 #include "bodies.hpp"
 #include "bus/json.hpp"
+#include "core/router.hpp"
 #include "mailbox.hpp"
 #include "measurement.hpp"
 #include "operating_control.hpp"
@@ -19,7 +20,6 @@
 #include "program_checker.hpp"
 #include "program_planner.hpp"
 #include "recordings.hpp"
-#include "src/router.hpp"
 
 namespace trunnion::gateway {
 
@@ -38,7 +38,7 @@ class Api {
       : mailbox_(mailbox),
         contract_(std::move(contract)),
         web_(std::move(web)),
-        checker_(mailbox),
+        checker_(mailbox, measurement.machine.directory),
         planner_(mailbox),
         recordings_(std::move(recordings)),
         access_(std::move(access), recordings_.worker()),

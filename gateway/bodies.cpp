@@ -1,39 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies.hpp"
 
-#include <filesystem>
-
+#include "core/bodies_document.hpp"
+#include "core/cluster_state.hpp"
 #include "machine/chain_parameters.hpp"
-#include "machine/yaml.hpp"
-#include "src/bodies_document.hpp"
-#include "src/snapshot.hpp"
 
 namespace trunnion::gateway {
 
 void answer_bodies(const Mailbox& mailbox, Worker& files, const std::string& directory,
                    const std::string& channel, const Respond& respond) {
   const auto number = path_number(channel, 65535);
-  const auto snapshot = mailbox.newest();
-  if (!snapshot || !snapshot->parameters)
+  const auto cluster = mailbox.newest();
+  if (!cluster || !cluster->parameters)
     return respond(problem_answer(504, "the parameters service has not published yet"));
-  if (!number || !snapshot->channels.contains(static_cast<std::uint16_t>(*number)))
+  if (!number || !cluster->channels.contains(static_cast<std::uint16_t>(*number)))
     return respond(problem_answer(404, "no channel " + channel));
-  const bool taken =
-      files.offer([snapshot, directory, number = static_cast<std::uint16_t>(*number), respond] {
-        try {
-          const auto file = directory + "/bodies.yaml";
-          const bool described = std::filesystem::exists(file);
-          auto bodies = collision::parse_bodies(described ? machine::read_text(file) : "", file,
-                                                machine::chain_parameters(*snapshot->values, number));
-          if (!described) bodies.set = collision::derived_bodies(bodies.links);
-          auto document = bodies_document(bodies);
-          document["channel"] = number;
-          document["derived"] = !described;
-          respond(json_answer(200, document));
-        } catch (const std::exception& error) {
-          respond(problem_answer(409, error.what()));
-        }
-      });
+  const bool taken = files.offer([cluster, directory, number = static_cast<std::uint16_t>(*number), respond] {
+    try {
+      const auto bodies =
+          collision::load_bodies(directory, machine::chain_parameters(*cluster->values, number));
+      auto document = bodies_document(bodies);
+      document["channel"] = number;
+      document["derived"] = bodies.derived;
+      respond(json_answer(200, document));
+    } catch (const std::exception& error) {
+      respond(problem_answer(409, error.what()));
+    }
+  });
   if (!taken) respond(busy_answer());
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "answer.hpp"
+#include "core/worker.hpp"
 #include "mailbox.hpp"
-#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 

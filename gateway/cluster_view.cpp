@@ -27,13 +27,13 @@ std::vector<std::uint16_t> drive_columns(const machine::Parameters& parameters) 
 
 }  // namespace
 
-ClusterView::ClusterView(bus::Bus& bus, std::string title)
+ClusterView::ClusterView(bus::Bus& bus, std::string title, FeedbackChange change)
     : announcements_(bus.reader(topics::announcement)),
       service_states_(bus.reader(topics::service_state)),
       alarms_(bus.reader(topics::alarm)),
       cluster_(bus.reader(topics::cluster)),
       channel_states_(bus.reader(topics::channel_state)),
-      feedback_(bus, topics::feedback_frame),
+      feedback_(bus, topics::feedback),
       outputs_(bus.reader(topics::plc_outputs)),
       image_(bus.reader(topics::plc_image)),
       variables_(bus.reader(topics::variables)),
@@ -45,7 +45,8 @@ ClusterView::ClusterView(bus::Bus& bus, std::string title)
       parameters_(bus.reader(topics::parameter_set)),
       tools_(bus.reader(topics::tool_table)),
       offsets_(bus.reader(topics::work_offsets)),
-      programs_(bus.reader(topics::program_list)) {
+      programs_(bus.reader(topics::program_list)),
+      change_(std::move(change)) {
   document_.set_title(std::move(title));
 }
 
@@ -71,11 +72,12 @@ void ClusterView::drain(double now) {
   }
   idl::service::Cluster cluster;
   if (cluster_.take_newest(cluster)) document_.apply(cluster);
-  idl::stream::FeedbackFrame frame;
-  while (feedback_.take(frame)) {
-    document_.apply(frame);
-    press_ = {frame.press_client, frame.press_number};
-    ++frames_;
+  idl::stream::Feedback batch;
+  while (feedback_.take(batch)) {
+    if (change_) change_(batch);
+    document_.apply(batch);
+    press_ = {batch.press_client, batch.press_number};
+    ++batches_;
   }
   idl::plc::Outputs outputs;
   if (outputs_.take_newest(outputs)) document_.apply(outputs);
@@ -102,14 +104,14 @@ void ClusterView::drain(double now) {
   if (keep_newest(programs_, next_.programs)) document_.set_revision("programs", next_.programs->revision);
 }
 
-std::shared_ptr<const Snapshot> ClusterView::snapshot(double now, const bus::Json& operating,
-                                                      bool with_replies) {
+std::shared_ptr<const ClusterState> ClusterView::state(double now, const bus::Json& operating,
+                                                       bool with_replies) {
   ++next_.sequence;
   if (with_replies) next_.replies = next_.sequence;
   next_.document = document_.document(now);
   next_.past_alarms = history_.newest();
   if (!operating.is_null()) next_.document["operating"] = operating;
-  return std::make_shared<const Snapshot>(next_);
+  return std::make_shared<const ClusterState>(next_);
 }
 
 }  // namespace trunnion::gateway

@@ -2,29 +2,33 @@
 // What a gateway knows of the cluster: the newest of every topic it shows.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "bus/bus.hpp"
-#include "src/alarm_history.hpp"
-#include "src/snapshot.hpp"
-#include "src/state_document.hpp"
-#include "stream/frame_reader.hpp"
+#include "core/alarm_history.hpp"
+#include "core/cluster_state.hpp"
+#include "core/state_document.hpp"
+#include "stream/batch_reader.hpp"
 
 namespace trunnion::gateway {
 
+/// Changes what the drive has said before anything of it is shown.
+using FeedbackChange = std::function<void(idl::stream::Feedback&)>;
+
 class ClusterView {
  public:
-  /// `title` of the machine, for display.
-  explicit ClusterView(bus::Bus& bus, std::string title = {});
+  /// `title` of the machine, for display. `change` is empty but in the tests of what compares gateways.
+  explicit ClusterView(bus::Bus& bus, std::string title = {}, FeedbackChange change = {});
   /// Takes what has come. `now` in monotonic seconds.
   void drain(double now);
   /// Everything as it is now; peaks and the trace start afresh with it. `operating` is that of
   /// OperatingControl.
-  std::shared_ptr<const Snapshot> snapshot(double now, const bus::Json& operating = nullptr,
-                                           bool with_replies = false);
+  std::shared_ptr<const ClusterState> state(double now, const bus::Json& operating = nullptr,
+                                            bool with_replies = false);
   AlarmHistory& alarm_history() { return history_; }
-  std::uint64_t frames() const { return frames_; }
+  std::uint64_t batches() const { return batches_; }
   /// As of StateDocument.
   bool executed() const { return document_.executed(); }
   /// Of the emergency stop, that the drive holds; number 0 = none.
@@ -38,7 +42,7 @@ class ClusterView {
   bus::Reader<idl::service::Alarm> alarms_;
   bus::Reader<idl::service::Cluster> cluster_;
   bus::Reader<idl::channel::ChannelState> channel_states_;
-  stream::FrameReader<idl::stream::FeedbackFrame> feedback_;
+  stream::BatchReader<idl::stream::Feedback> feedback_;
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::plc::Image> image_;
   bus::Reader<idl::channel::Variables> variables_;
@@ -52,10 +56,11 @@ class ClusterView {
   bus::Reader<idl::parameters::WorkOffsets> offsets_;
   bus::Reader<idl::program::ProgramList> programs_;
 
+  FeedbackChange change_;
   StateDocument document_;
   AlarmHistory history_;
-  Snapshot next_;
-  std::uint64_t frames_ = 0;
+  ClusterState next_;
+  std::uint64_t batches_ = 0;
   idl::plc::Press press_{};
 };
 

@@ -73,7 +73,7 @@ void Mailbox::post(Job job) {
   wake_();
 }
 
-std::shared_ptr<const Snapshot> Mailbox::newest() const {
+std::shared_ptr<const ClusterState> Mailbox::newest() const {
   const std::lock_guard lock(mutex_);
   return newest_;
 }
@@ -83,9 +83,9 @@ std::vector<Job> Mailbox::take() {
   return std::exchange(jobs_, {});
 }
 
-void Mailbox::publish(std::shared_ptr<const Snapshot> snapshot) {
+void Mailbox::publish(std::shared_ptr<const ClusterState> cluster) {
   const std::lock_guard lock(mutex_);
-  newest_.swap(snapshot);
+  newest_.swap(cluster);
 }
 
 }  // namespace trunnion::gateway

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the two threads exchange: requests from the HTTP side to the bus, the newest snapshot the other way.
+// What the two threads exchange: requests from the HTTP side to the bus, the newest state the other way.
 #pragma once
 
 #include <functional>
@@ -9,16 +9,16 @@
 
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
+#include "core/cluster_state.hpp"
+#include "core/operator_journal.hpp"
 #include "request_lanes.hpp"
-#include "src/journal.hpp"
-#include "src/snapshot.hpp"
 
 namespace trunnion::gateway {
 
 /// Numbers the lines and writes them.
-class Journal {
+class OperatorJournal {
  public:
-  explicit Journal(bus::Bus& bus) : writer_(bus.writer(topics::operator_request)) {}
+  explicit OperatorJournal(bus::Bus& bus) : writer_(bus.writer(topics::operator_request)) {}
   void write(JournalLine line) {
     line.line = ++lines_;
     writer_.write(line);
@@ -69,7 +69,7 @@ struct Links {
   RequestLanes<idl::plc::OnlineRequest, idl::plc::OnlineReply> online;
   RequestLanes<idl::measurement::MeasurementRequest, idl::measurement::MeasurementReply> measurement;
   AlarmResets alarm_resets;
-  Journal journal;
+  OperatorJournal journal;
 };
 
 using Job = std::function<void(Links&, double now)>;
@@ -81,17 +81,17 @@ class Mailbox {
   /// HTTP side: runs `job` on the bus thread soon.
   void post(Job job);
   /// HTTP side: the newest state; null until there is one.
-  std::shared_ptr<const Snapshot> newest() const;
+  std::shared_ptr<const ClusterState> newest() const;
 
   /// Bus side.
   std::vector<Job> take();
-  void publish(std::shared_ptr<const Snapshot> snapshot);
+  void publish(std::shared_ptr<const ClusterState> cluster);
 
  private:
   std::function<void()> wake_;
   mutable std::mutex mutex_;
   std::vector<Job> jobs_;
-  std::shared_ptr<const Snapshot> newest_;
+  std::shared_ptr<const ClusterState> newest_;
 };
 
 }  // namespace trunnion::gateway

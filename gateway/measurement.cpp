@@ -2,12 +2,12 @@
 #include "measurement.hpp"
 
 #include "calibration/offered_inputs.hpp"
+#include "core/cluster_state.hpp"
+#include "core/manual_calibration_document.hpp"
+#include "core/measurement_requests.hpp"
 #include "machine/chain_parameters.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/yaml.hpp"
-#include "src/manual_calibration_document.hpp"
-#include "src/measurement_requests.hpp"
-#include "src/snapshot.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -17,11 +17,11 @@ constexpr std::size_t most_author = 48;  // measurement.idl
 const std::string& author(const RequestText& text) { return text.user ? text.user->name : text.peer; }
 
 Answer newest_measurement(const Mailbox& mailbox) {
-  const auto snapshot = mailbox.newest();
-  if (!snapshot || !snapshot->measurement)
+  const auto cluster = mailbox.newest();
+  if (!cluster || !cluster->measurement)
     return problem_answer(504, "the machine has no measurement service, or it has not published yet");
-  bus::Json body = {{"state", bus::to_json(*snapshot->measurement)}};
-  if (snapshot->measurement_result) body["result"] = bus::to_json(*snapshot->measurement_result);
+  bus::Json body = {{"state", bus::to_json(*cluster->measurement)}};
+  if (cluster->measurement_result) body["result"] = bus::to_json(*cluster->measurement_result);
   return json_answer(200, body);
 }
 
@@ -58,16 +58,15 @@ struct ManualStart {
 };
 
 ManualStart manual_start(const Mailbox& mailbox, std::uint32_t channel) {
-  const auto snapshot = mailbox.newest();
-  if (!snapshot || !snapshot->parameters) throw Refused(504, "the parameters service has not published yet");
+  const auto cluster = mailbox.newest();
+  if (!cluster || !cluster->parameters) throw Refused(504, "the parameters service has not published yet");
   ManualStart start{static_cast<std::uint16_t>(channel), {}, {}};
-  if (!snapshot->channels.contains(start.channel))
-    throw Refused(404, "no channel " + std::to_string(channel));
-  for (const auto& pending : snapshot->parameters->pending)
+  if (!cluster->channels.contains(start.channel)) throw Refused(404, "no channel " + std::to_string(channel));
+  for (const auto& pending : cluster->parameters->pending)
     if (machine::is_chain_parameter(pending.number))
       throw Refused(409, "parameter " + machine::number_text(pending.number) +
                              " of the kinematics waits for a reset: reset the channel first");
-  start.chain = machine::chain_parameters(*snapshot->values, start.channel);
+  start.chain = machine::chain_parameters(*cluster->values, start.channel);
   const auto kind = calibration::manual_kind(start.chain);
   if (!kind)
     throw Refused(409, std::string(calibration::manual_machines) + ": measure this machine with the probe");
@@ -123,14 +122,14 @@ void KinematicMeasurement::order(Operation operation, const RequestText& text, c
 void KinematicMeasurement::answer_inputs(const std::string& query, const Respond& respond) {
   const auto text = query_value(query, "channel");
   const auto channel = path_number(text.empty() ? "0" : text, 65535);
-  const auto snapshot = mailbox_.newest();
-  if (!snapshot || !snapshot->parameters)
+  const auto cluster = mailbox_.newest();
+  if (!cluster || !cluster->parameters)
     return respond(problem_answer(504, "the parameters service has not published yet"));
-  if (!channel || !snapshot->channels.contains(static_cast<std::uint16_t>(*channel)))
+  if (!channel || !cluster->channels.contains(static_cast<std::uint16_t>(*channel)))
     return respond(problem_answer(404, "no channel " + text));
-  const bool taken = files_.offer([this, snapshot, number = static_cast<std::uint16_t>(*channel), respond] {
+  const bool taken = files_.offer([this, cluster, number = static_cast<std::uint16_t>(*channel), respond] {
     try {
-      const auto machine = calibration::load_measured_machine(settings_.machine, *snapshot->values, number);
+      const auto machine = calibration::load_measured_machine(settings_.machine, *cluster->values, number);
       const auto inputs = calibration::default_inputs(machine);
       if (const auto fault = calibration::fault_of(inputs, machine); !fault.empty())
         return respond(problem_answer(409, fault));

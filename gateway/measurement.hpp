@@ -6,11 +6,11 @@
 #include <functional>
 
 #include "answer.hpp"
-#include "calibration/journal.hpp"
+#include "calibration/last_calibration.hpp"
+#include "core/router.hpp"
+#include "core/worker.hpp"
 #include "machine/machine.hpp"
 #include "mailbox.hpp"
-#include "src/router.hpp"
-#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "access/secrets.hpp"
+#include "core/requests.hpp"
+#include "core/rights.hpp"
 #include "service/node.hpp"
-#include "src/requests.hpp"
-#include "src/rights.hpp"
 
 namespace trunnion::gateway {
 namespace {

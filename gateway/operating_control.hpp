@@ -10,7 +10,7 @@
 #include "access/operating_right.hpp"
 #include "access_control.hpp"
 #include "answer.hpp"
-#include "src/router.hpp"
+#include "core/router.hpp"
 
 namespace trunnion::gateway {
 

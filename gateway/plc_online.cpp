@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "plc_online/task_times.hpp"
+#include "plc/online/task_times.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -53,10 +53,10 @@ void PlcOnline::handle(const Match& match, const RequestText& request, const Res
       case Operation::plc_variables:
         return answer_variables(request.query, respond);
       case Operation::plc_forces: {
-        const auto snapshot = mailbox_.newest();
-        if (!snapshot || !snapshot->plc_forces)
+        const auto cluster = mailbox_.newest();
+        if (!cluster || !cluster->plc_forces)
           return respond(problem_answer(504, "the plc service has not published yet"));
-        auto forces = bus::to_json(*snapshot->plc_forces);
+        auto forces = bus::to_json(*cluster->plc_forces);
         return respond(json_answer(200, {{"values", forces["values"]}}));
       }
       case Operation::plc_tasks:
@@ -140,9 +140,9 @@ void PlcOnline::send_all(std::shared_ptr<const std::vector<Request>> requests, s
 }
 
 std::uint64_t PlcOnline::running() const {
-  const auto snapshot = mailbox_.newest();
-  if (!snapshot || !snapshot->plc_programs) return 0;
-  const auto& programs = *snapshot->plc_programs;
+  const auto cluster = mailbox_.newest();
+  if (!cluster || !cluster->plc_programs) return 0;
+  const auto& programs = *cluster->plc_programs;
   return (static_cast<std::uint64_t>(programs.changes) + 1) << 32 | programs.crc32;
 }
 
@@ -244,10 +244,10 @@ void PlcOnline::read_sources(idl::plc::ProgramSet set, std::shared_ptr<std::vect
 }
 
 void PlcOnline::answer_programs(const Respond& respond) {
-  const auto snapshot = mailbox_.newest();
-  if (!snapshot || !snapshot->plc_programs)
+  const auto cluster = mailbox_.newest();
+  if (!cluster || !cluster->plc_programs)
     return respond(problem_answer(504, "the plc service has not published yet"));
-  auto json = bus::to_json(*snapshot->plc_programs);
+  auto json = bus::to_json(*cluster->plc_programs);
   json.erase("plc");
   with_sources(idl::plc::ProgramSet::ACTIVE, respond, [json, respond](const auto& files) {
     auto body = json;

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "answer.hpp"
+#include "core/plc_requests.hpp"
+#include "core/router.hpp"
+#include "core/worker.hpp"
 #include "mailbox.hpp"
-#include "plc_online/shown_variables.hpp"
-#include "src/plc_requests.hpp"
-#include "src/router.hpp"
-#include "src/worker.hpp"
+#include "plc/online/shown_variables.hpp"
 
 namespace trunnion::gateway {
 

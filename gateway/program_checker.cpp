@@ -3,7 +3,8 @@
 
 #include <chrono>
 
-#include "src/program_check.hpp"
+#include "collision_guard/collision_guard.hpp"
+#include "core/program_check.hpp"
 #include "stored_texts.hpp"
 
 namespace trunnion::gateway {
@@ -24,20 +25,21 @@ void ProgramChecker::stop() {
 }
 
 Answer ProgramChecker::run(const Job& job) {
-  const auto& snapshot = *job.snapshot;
-  if (!snapshot.parameters || !snapshot.tools || !snapshot.offsets)
+  const auto& cluster = *job.cluster;
+  if (!cluster.parameters || !cluster.tools || !cluster.offsets)
     return error_answer(504, "the parameters service has not published yet");
   try {
     channel_setup::ChannelSetup machine(job.channel);
-    machine.configure(*snapshot.values);
-    machine.set_tools(*snapshot.tools);
-    machine.set_offsets(*snapshot.offsets);
+    machine.configure(*cluster.values);
+    machine.set_tools(*cluster.tools);
+    machine.set_offsets(*cluster.offsets);
     StoredTexts texts(mailbox_);
     machine.resolve = [&texts](std::string_view name) { return texts.find(name); };
+    const auto guard = collision_guard::load_guard(machine, machine_directory_, *cluster.values, job.channel);
     language::StringSource text(job.text);
     const auto until = Clock::now() + std::chrono::duration<double>(longest);
-    auto answer =
-        json_answer(200, check_program(text, machine, [&] { return stopping_ || Clock::now() > until; }));
+    auto answer = json_answer(
+        200, check_program(text, machine, guard.get(), [&] { return stopping_ || Clock::now() > until; }));
     answer.asked = texts.asked();
     return answer;
   } catch (const std::exception& error) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <atomic>
+#include <string>
+#include <utility>
 
 #include "answer.hpp"
+#include "core/worker.hpp"
 #include "mailbox.hpp"
-#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 
@@ -20,11 +22,13 @@ class ProgramChecker {
   struct Job {
     std::string text;
     std::uint16_t channel = 0;
-    std::shared_ptr<const Snapshot> snapshot;
+    std::shared_ptr<const ClusterState> cluster;
     Respond respond;
   };
 
-  explicit ProgramChecker(Mailbox& mailbox) : mailbox_(mailbox) {}
+  /// Bodies of the machine count as machine.yaml in `machine_directory` demands.
+  ProgramChecker(Mailbox& mailbox, std::string machine_directory)
+      : mailbox_(mailbox), machine_directory_(std::move(machine_directory)) {}
   ~ProgramChecker() { stop(); }
   /// Answers later; at once with 503 when too many wait.
   void submit(const Job& job);
@@ -35,6 +39,7 @@ class ProgramChecker {
   Answer run(const Job& job);
 
   Mailbox& mailbox_;
+  const std::string machine_directory_;
   std::atomic<bool> stopping_ = false;
   Worker worker_{"gateway-checks", most_waiting};
 };

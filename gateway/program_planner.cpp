@@ -4,8 +4,8 @@
 #include <chrono>
 
 #include "channel_setup/channel_setup.hpp"
-#include "src/program_plan.hpp"
-#include "src/snapshot.hpp"
+#include "core/cluster_state.hpp"
+#include "core/program_plan.hpp"
 #include "stored_texts.hpp"
 
 namespace trunnion::gateway {
@@ -23,8 +23,8 @@ void ProgramPlanner::stop() {
 }
 
 Answer ProgramPlanner::run(const Job& job) {
-  const auto& snapshot = *job.snapshot;
-  if (!snapshot.parameters || !snapshot.tools || !snapshot.offsets)
+  const auto& cluster = *job.cluster;
+  if (!cluster.parameters || !cluster.tools || !cluster.offsets)
     return problem_answer(504, "the parameters service has not published yet");
   StoredTexts texts(mailbox_);
   auto answer = plan(job, texts);
@@ -34,7 +34,7 @@ Answer ProgramPlanner::run(const Job& job) {
 }
 
 Answer ProgramPlanner::plan(const Job& job, StoredTexts& texts) {
-  const auto& snapshot = *job.snapshot;
+  const auto& cluster = *job.cluster;
   try {
     auto* text = texts.find(job.program);
     if (text == nullptr)
@@ -42,14 +42,14 @@ Answer ProgramPlanner::plan(const Job& job, StoredTexts& texts) {
                                      std::to_string(StoredTexts::largest >> 20) + " MB");
     auto& kept = kept_[job.channel];
     const auto of = text->entry.name + "\n" + std::to_string(text->entry.revision) + " " +
-                    snapshot.parameters_tag + " " + std::to_string(snapshot.tools->revision) + " " +
-                    std::to_string(snapshot.offsets->revision) + " " +
-                    std::to_string(snapshot.programs ? snapshot.programs->revision : 0);
+                    cluster.parameters_tag + " " + std::to_string(cluster.tools->revision) + " " +
+                    std::to_string(cluster.offsets->revision) + " " +
+                    std::to_string(cluster.programs ? cluster.programs->revision : 0);
     if (kept.of != of) {
       channel_setup::ChannelSetup machine(job.channel);
-      machine.configure(*snapshot.values);
-      machine.set_tools(*snapshot.tools);
-      machine.set_offsets(*snapshot.offsets);
+      machine.configure(*cluster.values);
+      machine.set_tools(*cluster.tools);
+      machine.set_offsets(*cluster.offsets);
       machine.resolve = [&texts](std::string_view name) { return texts.find(name); };
       const auto until = Clock::now() + std::chrono::duration<double>(longest);
       auto document = plan_document(*text, machine, [&] { return stopping_ || Clock::now() > until; });

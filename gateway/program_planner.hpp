@@ -7,8 +7,8 @@
 #include <map>
 
 #include "answer.hpp"
+#include "core/worker.hpp"
 #include "mailbox.hpp"
-#include "src/worker.hpp"
 
 namespace trunnion::gateway {
 
@@ -24,7 +24,7 @@ class ProgramPlanner {
   struct Job {
     std::string program;
     std::uint16_t channel = 0;
-    std::shared_ptr<const Snapshot> snapshot;
+    std::shared_ptr<const ClusterState> cluster;
     Respond respond;
   };
 

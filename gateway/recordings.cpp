@@ -7,10 +7,10 @@
 #include <thread>
 
 #include "bus/registry.hpp"
+#include "core/recording_table.hpp"
+#include "core/requests.hpp"
 #include "recording/disk_space.hpp"
 #include "recording/file_stream.hpp"
-#include "src/recording_table.hpp"
-#include "src/requests.hpp"
 
 namespace trunnion::gateway {
 namespace fs = std::filesystem;

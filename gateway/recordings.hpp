@@ -7,9 +7,9 @@
 
 #include "answer.hpp"
 #include "cluster/child_process.hpp"
-#include "src/recording_files.hpp"
-#include "src/router.hpp"
-#include "src/worker.hpp"
+#include "core/recording_files.hpp"
+#include "core/router.hpp"
+#include "core/worker.hpp"
 
 namespace trunnion::gateway {
 

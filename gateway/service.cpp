@@ -20,7 +20,7 @@ constexpr std::size_t largest_alarm_file = 2u << 20;  // bytes, then it is rewri
 GatewayService::GatewayService(service::Node& node, const GatewayOptions& options)
     : mailbox_([&node] { node.bus().signal().notify(); }),
       links_(node.bus()),
-      view_(node.bus(), options.title),
+      view_(node.bus(), options.title, options.change),
       alarms_(node.alarms()) {
   if (options.tls.on()) certificate_.emplace(options.tls);
   if (!options.alarm_file.empty()) begin_alarm_history(options.alarm_file);
@@ -46,19 +46,19 @@ GatewayService::~GatewayService() {
   api_->stop();
 }
 
-double GatewayService::period() const { return links_.period().value_or(snapshot_period); }
+double GatewayService::period() const { return links_.period().value_or(state_period); }
 
 service::Health GatewayService::health() const {
   service::Health health;
   health.lifecycle = idl::service::Lifecycle::ACTIVE;
   health.detail = where_ + ", " + std::to_string(server_->clients()) + " viewing";
-  health.frames_in = view_.frames();
+  health.messages_in = view_.batches();
   health.revision = view_.revision();
   return health;
 }
 
 void GatewayService::publish(double now, bool with_replies) {
-  mailbox_.publish(view_.snapshot(now, api_->operating().document(), with_replies));
+  mailbox_.publish(view_.state(now, api_->operating().document(), with_replies));
   server_->show();
   published_ = now;
 }
@@ -141,7 +141,7 @@ void GatewayService::pump() {
   watch_certificate(now);
   keep_alarm_history(now);
   give_memory_back(now);
-  if (now - published_ >= snapshot_period) publish(now, false);
+  if (now - published_ >= state_period) publish(now, false);
 }
 
 }  // namespace trunnion::gateway

@@ -31,6 +31,7 @@ struct GatewayOptions {
   std::uint16_t mtconnect_port = 0;  ///< 0 = no agent
   mtconnect::AgentSettings mtconnect;
   TlsFiles tls;
+  FeedbackChange change;  ///< as of ClusterView
 };
 
 class GatewayService : public service::Service {
@@ -42,8 +43,8 @@ class GatewayService : public service::Service {
   service::Health health() const override;
 
  private:
-  /// Seconds between two snapshots.
-  static constexpr double snapshot_period = 0.05;
+  /// Seconds between two states.
+  static constexpr double state_period = 0.05;
   void publish(double now, bool with_replies);
   /// Looks at the files of the certificate, and says by alarms what is wrong with them.
   void watch_certificate(double now);

@@ -31,9 +31,9 @@ Json comparable(Json document, bool executed) {
   return document;
 }
 
-Json own(const Snapshot& snapshot, bool executed) {
+Json own(const ClusterState& cluster, bool executed) {
   // Numbers as they come over the line.
-  return Json::parse(bus::text_of(comparable(snapshot.document, executed)));
+  return Json::parse(bus::text_of(comparable(cluster.document, executed)));
 }
 
 // Null when no gateway answers there.
@@ -47,20 +47,20 @@ Json running(const http_client::Server& gateway, bool executed) {
 
 }  // namespace
 
-StandbyService::StandbyService(service::Node& node, const http_client::Server& gateway)
-    : view_(node.bus()), gateway_(gateway) {
+StandbyService::StandbyService(service::Node& node, const http_client::Server& gateway, FeedbackChange change)
+    : view_(node.bus(), {}, std::move(change)), gateway_(gateway) {
   gateway_.timeout = 1;  // s
 }
 
 void StandbyService::compare(double now) {
   const bool executed = view_.executed();
-  const auto before = own(*view_.snapshot(now), executed);
+  const auto before = own(*view_.state(now), executed);
   const auto theirs = running(gateway_, executed);
   no_answer_ = theirs.is_null();
   if (no_answer_) return;
   const double then = service::monotonic_seconds();
   view_.drain(then);
-  comparison_.sample(theirs, before, own(*view_.snapshot(then), executed), then);
+  comparison_.sample(theirs, before, own(*view_.state(then), executed), then);
 }
 
 void StandbyService::pump() {
@@ -74,7 +74,7 @@ void StandbyService::pump() {
 service::Health StandbyService::health() const {
   service::Health health;
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
-  health.frames_in = view_.frames();
+  health.messages_in = view_.batches();
   health.revision = view_.revision();
   health.difference = comparison_.difference();
   // Of a gateway that does not answer there is nothing that could be compared.

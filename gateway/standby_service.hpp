@@ -2,9 +2,9 @@
 #pragma once
 
 #include "cluster_view.hpp"
+#include "core/lasting_difference.hpp"
 #include "http_client/client.hpp"
 #include "service/node.hpp"
-#include "src/lasting_difference.hpp"
 
 namespace trunnion::gateway {
 
@@ -12,8 +12,8 @@ namespace trunnion::gateway {
 /// show with what the other one shows its clients. It writes nothing.
 class StandbyService : public service::Service {
  public:
-  /// `gateway` that runs on this computer.
-  StandbyService(service::Node& node, const http_client::Server& gateway);
+  /// `gateway` that runs on this computer. `change`: as of ClusterView.
+  StandbyService(service::Node& node, const http_client::Server& gateway, FeedbackChange change = {});
   void pump() override;
   service::Health health() const override;
 

@@ -23,7 +23,7 @@ struct CalledMeasurement : ::testing::Test {
     client.set_mode(0, Mode::AUTO);
     client.select_program(0, "measure.nc");
     client.channel(0, CommandKind::CYCLE_START);
-    ASSERT_TRUE(rig.until([&] { return rig.cluster->state() != RunState::IDLE; }, 5)) << rig.told();
+    ASSERT_TRUE(rig.until([&] { return rig.cluster->state() != RunState::IDLE; })) << rig.told();
   }
   // CYCLE9960 turns with the delivered feed of the rotary axes.
   bool ended() {
@@ -35,8 +35,7 @@ TEST_F(CalledMeasurement, WritesTheVectorsOfTheDisplacedTableAndFindsThemAgain) 
   rig.start(MeasurementRig::good_probe);
   run(program());
   ASSERT_TRUE(ended()) << rig.told();
-  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::FINISHED && rig.changed(); }, 5))
-      << rig.told();
+  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::FINISHED && rig.changed(); })) << rig.told();
   EXPECT_TRUE(rig.state.written);
   EXPECT_EQ(rig.state.who, "program measure.nc line 5");
   EXPECT_EQ(rig.state.complete, MeasurementRig::poses);
@@ -52,12 +51,12 @@ TEST_F(CalledMeasurement, WritesTheVectorsOfTheDisplacedTableAndFindsThemAgain) 
   // The second run: refused until the values are active, then nothing is left to correct.
   run(program());
   ASSERT_TRUE(ended());
-  EXPECT_TRUE(rig.until([&] { return rig.cluster->has_alarm(158, "waits for a reset"); }, 5)) << rig.told();
+  EXPECT_TRUE(rig.until([&] { return rig.cluster->has_alarm(158, "waits for a reset"); })) << rig.told();
   ASSERT_TRUE(rig.clear_machine()) << rig.told();
-  ASSERT_TRUE(rig.until([&] { return rig.set.pending.empty(); }, 5)) << rig.told();
+  ASSERT_TRUE(rig.until([&] { return rig.set.pending.empty(); })) << rig.told();
   run(program());
   ASSERT_TRUE(ended()) << rig.told();
-  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::FINISHED && rig.state.measurement == 2; }, 5))
+  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::FINISHED && rig.state.measurement == 2; }))
       << rig.told();
   EXPECT_LT(rig.result().largest_change, 0.003);
 }
@@ -99,7 +98,7 @@ TEST_F(CalledMeasurement, EndsWithAnAlarmWhenTheMeasuringProcessIsKilledAndIsMea
       30))
       << rig.told();
   ASSERT_TRUE(ended()) << rig.told();
-  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::INTERRUPTED; }, 5)) << rig.told();
+  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::INTERRUPTED; })) << rig.told();
   EXPECT_FALSE(rig.changed());
   EXPECT_FALSE(rig.state.may_continue);
   EXPECT_NE(rig.order(Operation::CONTINUE).reason.find("start that program again"), std::string::npos);
@@ -107,8 +106,7 @@ TEST_F(CalledMeasurement, EndsWithAnAlarmWhenTheMeasuringProcessIsKilledAndIsMea
   ASSERT_TRUE(rig.clear_machine()) << rig.told();
   run(program());
   ASSERT_TRUE(ended()) << rig.told();
-  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::FINISHED && rig.changed(); }, 5))
-      << rig.told();
+  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::FINISHED && rig.changed(); })) << rig.told();
   EXPECT_NEAR(rig.pending(40433), 0.21, 0.005);
 }
 
@@ -117,7 +115,7 @@ TEST_F(CalledMeasurement, IsInterruptedByAResetAndByTheEndOfTheChannel) {
   run(program());
   ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::MEASURING; })) << rig.told();
   rig.cluster->client().channel(0, CommandKind::RESET);
-  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::INTERRUPTED; }, 10)) << rig.told();
+  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::INTERRUPTED; })) << rig.told();
   EXPECT_NE(rig.state.error.find("the program has ended"), std::string::npos) << rig.state.error;
   EXPECT_FALSE(rig.changed());
 
@@ -126,7 +124,7 @@ TEST_F(CalledMeasurement, IsInterruptedByAResetAndByTheEndOfTheChannel) {
   ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::MEASURING && rig.state.complete >= 1; }))
       << rig.told();
   rig.kill("channel");
-  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::INTERRUPTED; }, 10)) << rig.told();
+  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::INTERRUPTED; })) << rig.told();
   EXPECT_FALSE(rig.changed());
   // The program cannot be resumed behind the cycle. Once the start is accepted, another reset would clear the
   // alarm.
@@ -147,14 +145,14 @@ TEST_F(CalledMeasurement, IsInterruptedByAResetAndByTheEndOfTheChannel) {
   ASSERT_TRUE(rig.clear_machine()) << rig.told();
   run(program());
   ASSERT_TRUE(ended()) << rig.told();
-  EXPECT_TRUE(rig.until([&] { return rig.state.phase == Phase::FINISHED; }, 5)) << rig.told();
+  EXPECT_TRUE(rig.until([&] { return rig.state.phase == Phase::FINISHED; })) << rig.told();
 }
 
 TEST_F(CalledMeasurement, EndsWithTheAlarmOfATouchWithoutContact) {
   rig.start(std::string(MeasurementRig::good_probe) + ", no_signal_from_touch: 31");
   run(program());
   ASSERT_TRUE(ended()) << rig.told();
-  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::INTERRUPTED; }, 10)) << rig.told();
+  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::INTERRUPTED; })) << rig.told();
   EXPECT_TRUE(rig.cluster->has_alarm(1501, "no contact")) << rig.told();
   EXPECT_NE(rig.state.error.find("alarm 1501"), std::string::npos) << rig.state.error;
   EXPECT_FALSE(rig.changed());
@@ -166,7 +164,7 @@ TEST_F(CalledMeasurement, AnEmergencyStopWritesNothing) {
   ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::MEASURING && rig.state.complete >= 1; }))
       << rig.told();
   rig.cluster->client().panel(idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP);
-  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::INTERRUPTED; }, 15)) << rig.told();
+  ASSERT_TRUE(rig.until([&] { return rig.state.phase == Phase::INTERRUPTED; })) << rig.told();
   EXPECT_NE(rig.state.error.find("mergency stop"), std::string::npos) << rig.state.error;
   EXPECT_FALSE(rig.changed());
   ASSERT_TRUE(rig.clear_machine()) << rig.told();

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""check_compensated_motion.py TRUNNION WORK: WORK/mill ran a program; kinematics_frame.csv and compensation_frame.csv have its
+"""check_compensated_motion.py TRUNNION WORK: WORK/mill ran a program; kinematics_batch.csv and compensation_batch.csv have its
 setpoints before and after compensation. Every axis stays within its speed, acceleration and jerk, and the tool on the true
 machine is at most 15 % as far from the program as without compensation."""
 import csv, math, re, subprocess, sys
@@ -65,6 +65,6 @@ def check_place(before, after):
 
 
 if __name__ == "__main__":
-    kinematics, compensation = rows("kinematics_frame"), rows("compensation_frame")
+    kinematics, compensation = rows("kinematics_batch"), rows("compensation_batch")
     if [r["cycle"] for r in kinematics] != [r["cycle"] for r in compensation]: sys.exit("the cycles differ")
     if check_limits(compensation) | check_place(kinematics, compensation): sys.exit("a limit or the place is exceeded")

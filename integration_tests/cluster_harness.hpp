@@ -15,6 +15,7 @@
 
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/machine_session.hpp"
 #include "http_client/client.hpp"
 
 namespace trunnion::integration {
@@ -94,23 +95,23 @@ class Cluster {
       alarms[{alarm.instance, alarm.number, alarm.part}] = alarm;
       history.push_back(alarm);
     }
-    idl::stream::FeedbackFrame frame;
-    while (feedback_->take(frame)) {
-      if (frame.count > 0) {
-        if (expected_cycle != 0 && frame.first != expected_cycle) {
-          ++lost_frames;
-          if (keep_rows && frame.first > expected_cycle)
-            rows.resize(rows.size() + (frame.first - expected_cycle));
+    idl::stream::Feedback batch;
+    while (feedback_->take(batch)) {
+      if (batch.count > 0) {
+        if (expected_cycle != 0 && batch.first != expected_cycle) {
+          ++lost_batches;
+          if (keep_rows && batch.first > expected_cycle)
+            rows.resize(rows.size() + (batch.first - expected_cycle));
         }
-        expected_cycle = frame.first + frame.count;
+        expected_cycle = batch.first + batch.count;
       }
-      feedback = frame;
+      feedback = batch;
       ++feedback_messages_;
       report_progress();
-      if (on_frame) on_frame(frame);
-      for (std::uint32_t i = 0; i < frame.count && keep_rows; ++i)
-        rows.emplace_back(frame.commanded.begin() + i * frame.axis_count,
-                          frame.commanded.begin() + (i + 1) * frame.axis_count);
+      if (on_batch) on_batch(batch);
+      for (std::uint32_t i = 0; i < batch.count && keep_rows; ++i)
+        rows.emplace_back(batch.commanded.begin() + i * batch.axis_count,
+                          batch.commanded.begin() + (i + 1) * batch.axis_count);
     }
     while (clusters_->take(list_)) have_cluster_ = true;
   }
@@ -160,15 +161,7 @@ class Cluster {
     start(name, channel);
   }
   void start(const std::string& name, std::uint16_t channel = 0) {
-    client_->set_mode(channel, Mode::AUTO);
-    // The list with a new program may reach the channel after the store's answer.
-    for (int i = 0;; ++i) try {
-        client_->select_program(channel, name);
-        break;
-      } catch (const std::exception&) {
-        if (i == 50) throw;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      }
+    cluster::MachineSession(*client_, channel).select(name);
     cycle_start(channel);
   }
   /// Returns when the state is one that was published after the start.
@@ -213,7 +206,7 @@ class Cluster {
   }
   /// `rows`, of which this process must not have missed one.
   const Rows& every_row() {
-    EXPECT_EQ(lost_frames, 0u) << "this process got no processor";
+    EXPECT_EQ(lost_batches, 0u) << "this process got no processor";
     std::erase_if(rows, [](const auto& row) { return row.empty(); });
     return rows;
   }
@@ -221,7 +214,7 @@ class Cluster {
     const bool ended = until(
         [&] { return state(channel) == RunState::IDLE || state(channel) == RunState::INTERRUPTED; }, seconds);
     // The state may come before the last rows, which are of another topic.
-    if (ended && keep_rows) until([&] { return expected_cycle >= channels[channel].cycle; }, 2);
+    if (ended && keep_rows) until([&] { return expected_cycle >= channels[channel].cycle; });
     return ended && state(channel) == RunState::IDLE;
   }
   /// After a stop: resets what can be reset and starts again, until the channel runs.
@@ -243,15 +236,15 @@ class Cluster {
   std::map<std::uint16_t, std::uint64_t> state_count;
   std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> alarms;
   std::vector<idl::service::Alarm> history;
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   Rows rows;  ///< one for each cycle, empty when this process has not seen it
   bool keep_rows = false;
-  std::function<void(const idl::stream::FeedbackFrame&)> on_frame;  ///< sees every frame
+  std::function<void(const idl::stream::Feedback&)> on_batch;  ///< sees every batch
   /// In virtual time channels wait for this process as they do for a recorder, so that it misses no cycle
-  /// while it keeps rows or watches frames. It must drain() without long breaks: after 0.7 s they go on
+  /// while it keeps rows or watches batches. It must drain() without long breaks: after 0.7 s they go on
   /// alone, which is close to the second for which the drive waits for a setpoint.
   bool paces = true;
-  std::uint64_t expected_cycle = 0, lost_frames = 0;
+  std::uint64_t expected_cycle = 0, lost_batches = 0;
 
  private:
   // Numbers of processes are used again, so the one that has it must name the domain in its command line.
@@ -262,7 +255,7 @@ class Cluster {
     return line.find(domain) != std::string::npos;
   }
 
-  bool sees_every_cycle() const { return paces && list_.virtual_time && (keep_rows || on_frame); }
+  bool sees_every_cycle() const { return paces && list_.virtual_time && (keep_rows || on_batch); }
 
   /// Half of the 1024 batches that a writer keeps for its readers, of 16 cycles each.
   static constexpr std::uint64_t cycles_ahead = 1024 / 2 * 16;
@@ -280,7 +273,7 @@ class Cluster {
     client_ = std::make_unique<cluster::Client>(network);
     states_.emplace(client_->bus().reader(topics::channel_state));
     alarms_.emplace(client_->bus().reader(topics::alarm));
-    feedback_.emplace(client_->bus().reader(topics::feedback_frame));
+    feedback_.emplace(client_->bus().reader(topics::feedback));
     clusters_.emplace(client_->bus().reader(topics::cluster));
     resets_.emplace(client_->bus().writer(topics::alarm_reset));
     // A drive that does not know of our reader yet would not tell where a motion begins.
@@ -294,7 +287,7 @@ class Cluster {
   std::unique_ptr<cluster::Client> client_;
   std::optional<bus::Reader<idl::channel::ChannelState>> states_;
   std::optional<bus::Reader<idl::service::Alarm>> alarms_;
-  std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_;
+  std::optional<bus::Reader<idl::stream::Feedback>> feedback_;
   std::optional<bus::Reader<idl::service::Cluster>> clusters_;
   std::optional<bus::Writer<idl::service::AlarmReset>> resets_;
   std::optional<bus::Writer<idl::stream::RecordingProgress>> progress_;

@@ -36,7 +36,7 @@ X-60 Y60 A30 C-30
 M30
 END
 "$TRUNNION" run "$work/mill" "$work/five_axis.nc" --report "$work/report" > "$work/run.log" 2>&1 || fail "$(cat "$work/run.log")"
-for topic in kinematics_frame compensation_frame; do
+for topic in kinematics_batch compensation_batch; do
   "$TRUNNION" export "$work/report/recording.mcap" --csv $topic > "$work/$topic.csv"
 done
 "$python" "$(dirname "$0")/check_compensated_motion.py" "$TRUNNION" "$work"

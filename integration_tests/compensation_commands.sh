@@ -37,9 +37,9 @@ grep -q '^0 20 40$' "$work/exported" || fail "$(cat "$work/exported")"
 "$trunnion" mdi "G53 G1 X150 F3000" --domain "$domain" > "$work/log" || fail "$(cat "$work/log")"
 # The history comes first, then what is published at rest, behind the cycles of the motion.
 cycle=$("$trunnion" topic echo channel_state --count 1 --timeout 60 --json --domain "$domain" | sed 's/.*"cycle":\([0-9]*\).*/\1/')
-"$trunnion" topic echo feedback_frame --json --domain "$domain" > "$work/frames" &
+"$trunnion" topic echo feedback --json --domain "$domain" > "$work/batches" &
 listener=$!
-is_at_rest() { grep -s "\"first\":$cycle,\"count\":0,.*}\$" "$work/frames" > "$work/at_rest"; }
+is_at_rest() { grep -s "\"first\":$cycle,\"count\":0,.*}\$" "$work/batches" > "$work/at_rest"; }
 wait_until "the drive reports that it rests behind cycle $cycle" is_at_rest
 kill $listener
 wait $listener 2> /dev/null || true

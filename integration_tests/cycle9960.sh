@@ -15,7 +15,7 @@ for vendor in cyclonedds fastdds; do
   "$trunnion" verify --service channel --recording "$work/$vendor.mcap" --machine "$machine" \
     --require "cycle of a service" > "$work/verify" 2>&1 || fail "$vendor: $(cat "$work/verify")"
 done
-"$trunnion" diff "$work/cyclonedds.mcap" "$work/fastdds.mcap" --align --topics path_frame,gantry_frame > "$work/diff" ||
+"$trunnion" diff "$work/cyclonedds.mcap" "$work/fastdds.mcap" --align --topics path_batch,gantry_batch > "$work/diff" ||
   fail "$(cat "$work/diff")"
 
 sed -i '/measurement/d' "$machine/machine.yaml"

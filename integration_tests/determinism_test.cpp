@@ -35,7 +35,7 @@ TEST(Determinism, TheConeIsAsPlannedAndTheSameOverThreeRunsAndEveryVendorLayout)
     EXPECT_EQ(report["executed_cycles"], report["cycles"]) << layout;
     for (const auto& [topic, lost] : report["lost_cycles"].items())
       EXPECT_EQ(lost, 0) << topic << " " << layout;
-    EXPECT_EQ(report["late_frames"], 0) << layout;
+    EXPECT_EQ(report["late_batches"], 0) << layout;
     // The kinematics' rounding; compensation and gantry correction are off on this machine.
     EXPECT_LT(report["forward_inverse_residual"]["max_mm"].get<double>(), 1e-9) << layout;
     // Parameter 040901, the path tolerance of the machine.

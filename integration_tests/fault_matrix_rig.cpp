@@ -130,7 +130,7 @@ void FaultRig::settle() {
 void FaultRig::begin() {
   settle();
   cluster_.rows.clear();
-  cluster_.lost_frames = 0;
+  cluster_.lost_batches = 0;
   cluster_.start(part_name);
 }
 
@@ -181,7 +181,7 @@ void FaultRig::restart_loop(const std::string& service) {
     for (int life = 0; life < 6; ++life) {
       if (life > 0) start_recorder();
       // A second at most stays in memory.
-      EXPECT_TRUE(cluster_.until([&] { return watch(), recorded_messages() > 0; }, 10))
+      EXPECT_TRUE(cluster_.until([&] { return watch(), recorded_messages() > 0; }))
           << "what was recorded can be read";
       kill(recorder_, SIGKILL);
       waitpid(std::exchange(recorder_, 0), nullptr, 0);

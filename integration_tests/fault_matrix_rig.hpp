@@ -52,7 +52,7 @@ class FaultRig {
   bool finish();
   /// Rows since begin().
   const Rows& rows() { return cluster_.rows; }
-  std::uint64_t lost_rows() const { return cluster_.lost_frames; }
+  std::uint64_t lost_rows() const { return cluster_.lost_batches; }
   Judgement judge(const Rows& reference, bool whole) const;
   /// An undisturbed run of which every row was seen; empty when the observer is too slow for that. Counts in
   /// `runs`.

@@ -146,11 +146,11 @@ TEST(Faults, EmergencyStopStopsSwitchesOffAndNeedsAReset) {
     return cluster.feedback.mode == DriveMode::FOLLOWING && !cluster.has_alarm(130);
   })) << cluster.active_alarms();
   // States are published twenty times a second.
-  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::IDLE; }, 5)) << cluster.active_alarms();
+  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::IDLE; })) << cluster.active_alarms();
   cluster.start_text("G90 G0 X5\nM30\n");
   ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
   // The encoder settles on the commanded position after the last setpoint.
-  EXPECT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0] - 5) < 0.01; }, 5))
+  EXPECT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0] - 5) < 0.01; }))
       << cluster.channels[0].machine[0];
 }
 

@@ -28,7 +28,7 @@ recovers() {
   [ -n "$domain" ] || fail "$1: no cluster: $(cat "$work/fault")"
   grep -Eq "drives off, not ready: channel \\(.*$2" "$work/fault" || fail "$(cat "$work/fault")"
   await_alarm "$2"
-  wait_until "the drives are off" is_published feedback_frame '"mode":"OFF"'
+  wait_until "the drives are off" is_published feedback '"mode":"OFF"'
   ! is_ready || fail "$1: status says that it is ready"
   grep -q FAULT "$work/status" || fail "$(cat "$work/status")"
   ! moves 1 || fail "$1: it moves"

@@ -34,14 +34,14 @@ TEST_F(Hal, AProgramIsExecutedAndTheSampledPositionsAreTheCommandedOnes) {
   double most = 0;
   std::size_t rows = 0;
   std::vector<double> commanded(3), before(3);
-  cluster->on_frame = [&](const idl::stream::FeedbackFrame& frame) {
-    for (std::uint32_t i = 0; i < frame.count; ++i, ++rows) {
+  cluster->on_batch = [&](const idl::stream::Feedback& feedback) {
+    for (std::uint32_t i = 0; i < feedback.count; ++i, ++rows) {
       before = commanded;
-      commanded.assign(frame.commanded.begin() + i * 3, frame.commanded.begin() + (i + 1) * 3);
+      commanded.assign(feedback.commanded.begin() + i * 3, feedback.commanded.begin() + (i + 1) * 3);
       // An encoder row is of the moment at which the setpoint comes into force: the setpoint before it was
       // reached.
       for (std::size_t a = 0; a < 3 && rows > 0; ++a)
-        most = std::max(most, std::abs(frame.actual[i * 3 + a] - before[a]));
+        most = std::max(most, std::abs(feedback.actual[i * 3 + a] - before[a]));
     }
   };
   cluster->start("square.nc");
@@ -52,7 +52,7 @@ TEST_F(Hal, AProgramIsExecutedAndTheSampledPositionsAreTheCommandedOnes) {
   // acceleration of 1500 mm/s2 within 20 ms it is some micrometres, and 0.05 mm leave room for that.
   EXPECT_LT(most, 0.05);
   EXPECT_GT(most, 0) << "simulated axes are not copies of the setpoints";
-  EXPECT_EQ(cluster->lost_frames, 0u);
+  EXPECT_EQ(cluster->lost_batches, 0u);
   // G54 X10 Y20 Z-100 and the tool of 50: X0 Y0 Z20 is there.
   EXPECT_NEAR(commanded[0], 10, 1e-6);
   EXPECT_NEAR(commanded[1], 20, 1e-6);
@@ -122,8 +122,8 @@ TEST_F(Hal, AProbeEndsAMoveAndItsPositionIsLatched) {
   make_encoders_absolute();
   up();
   std::vector<idl::stream::SkipEdge> edges;
-  cluster->on_frame = [&](const idl::stream::FeedbackFrame& frame) {
-    edges.insert(edges.end(), frame.skips.begin(), frame.skips.end());
+  cluster->on_batch = [&](const idl::stream::Feedback& feedback) {
+    edges.insert(edges.end(), feedback.skips.begin(), feedback.skips.end());
   };
   // The probe is at machine position -60; G54 has Z -100, no tool length.
   cluster->start_text("G90 G54 G49\nG0 Z50\nG31 L1 Z0 F600\nM30\n");

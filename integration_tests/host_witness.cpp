@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // host-witness CYCLIC ORDINARY COMMAND...: runs a test in real time and notes meanwhile for how long the host
 // kept threads from running that were due every millisecond: on every processor one with the priority of the
-// cyclic services (libs/service/node.cpp), limit CYCLIC ms, and one without, as the gateway, commands and the
-// test itself, limit ORDINARY ms. A run in which the host exceeded a limit is no measurement: it is said, and
-// the test runs again, whatever it showed. The result of a run within the limits is the result; without one
-// in five runs the status is 77, a skipped test. Only a signal that ends the test is a failure in any run.
+// cyclic services (libs/cluster/service/node.cpp), limit CYCLIC ms, and one without, as the gateway, commands
+// and the test itself, limit ORDINARY ms. A run in which the host exceeded a limit is no measurement: it is
+// said, and the test runs again, whatever it showed. The result of a run within the limits is the result;
+// without one in five runs the status is 77, a skipped test. Only a signal that ends the test is a failure in
+// any run.
 #include <pthread.h>
 #include <sched.h>
 #include <sys/wait.h>

@@ -97,9 +97,9 @@ class Cluster:
         return {one["service"]: one["pid"] for one in json.loads(status.stdout)["services"]}
 
     def starved(self):
-        """Periods without a setpoint since the start: of a frame that is newer than the history of the topic, 1024 frames."""
-        frames = self.command("topic", "echo", "feedback_frame", "--count", 1200, "--timeout", 10, "--json", "--domain", self.domain)
-        return json.loads(frames.splitlines()[-1])["starved"]
+        """Periods without a setpoint since the start: of a batch that is newer than the history of the topic, 1024 batches."""
+        batches = self.command("topic", "echo", "feedback", "--count", 1200, "--timeout", 10, "--json", "--domain", self.domain)
+        return json.loads(batches.splitlines()[-1])["starved"]
 
     def kept(self):
         """What only those with the right change."""

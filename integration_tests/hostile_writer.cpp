@@ -91,11 +91,11 @@ class Change {
 
 template <class Visit>
 void for_every_topic(Visit&& visit) {
-  visit(topics::path_frame);
-  visit(topics::kinematics_frame);
-  visit(topics::compensation_frame);
-  visit(topics::gantry_frame);
-  visit(topics::feedback_frame);
+  visit(topics::path_batch);
+  visit(topics::kinematics_batch);
+  visit(topics::compensation_batch);
+  visit(topics::gantry_batch);
+  visit(topics::feedback);
   visit(topics::stream_request);
   visit(topics::servo_test_request);
   visit(topics::servo_test_samples);

@@ -76,12 +76,7 @@ TEST_F(Hosts, ARecordingOfARunWithAnInterruptionIsVerifiedOrNamesIt) {
     Cluster cluster(on_control(domain));
     cluster.start_text(sweeps);
     EXPECT_TRUE(cluster.until([&] { return cluster.channels[0].line >= first_sweep; })) << cluster.told();
-    hosts.expect("cut", " motion 3");
-    EXPECT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion is silent"); }))
-        << cluster.told();
-    EXPECT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion hears no other host"); }))
-        << cluster.told();
-    EXPECT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
+    cut_off_motion(hosts, cluster);
     EXPECT_TRUE(cluster.until([&] { return cluster.state() != RunState::RUNNING; })) << cluster.told();
     EXPECT_TRUE(cluster.go_on()) << cluster.told();
     EXPECT_TRUE(cluster.finish()) << cluster.told();

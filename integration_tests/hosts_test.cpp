@@ -53,7 +53,7 @@ Rows over_three_hosts(const std::string& program, const Machines& machines, Thre
     cluster.keep_rows = true;
     begin(cluster, program);
     EXPECT_TRUE(cluster.finish(0, 90)) << cluster.told();
-    EXPECT_TRUE(cluster.until([&] { return cluster.rows.size() >= expected.size(); }, 2))
+    EXPECT_TRUE(cluster.until([&] { return cluster.rows.size() >= expected.size(); }))
         << cluster.rows.size() << " cycles instead of " << expected.size();
     rows = cluster.rows;
   }
@@ -158,7 +158,7 @@ TEST_F(Hosts, MulticastFindsTheOthersOnBothVendorsAndTheMotionIsTheSame) {
 }
 
 TEST_F(Hosts, ACableCutForFiftyMillisecondsIsNotNoticedAndForASecondIsAStopOnThePath) {
-  // docs/hosts.md computes it: the reserve for stopping, the cut, and what it takes until the lost frames
+  // docs/hosts.md computes it: the reserve for stopping, the cut, and what it takes until the lost batches
   // have come.
   const Machines machines(256);
   const auto sweeps = on_one_host(machines, {sweep, sweep});  // the second from where the first ends
@@ -207,12 +207,7 @@ TEST_F(Hosts, AHostThatIsCutOffForThreeSecondsIsOneAlarmOnEitherSideAndCanBeRese
   hosts.enter("control");
   {
     Cluster cluster(on_control(domain));
-    hosts.expect("cut", " motion 3");
-    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion is silent, and with it "); }))
-        << cluster.told();
-    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion hears no other host"); }))
-        << cluster.told();
-    ASSERT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
+    ASSERT_NO_FATAL_FAILURE(cut_off_motion(hosts, cluster));
     ASSERT_TRUE(cluster.until([&] {
       cluster.reset_alarms();
       return cluster.active_alarms().empty();
@@ -237,13 +232,7 @@ TEST_F(Hosts, ASecuredHostThatIsCutOffForThreeSecondsTakesPartAgainAfterAReset) 
   hosts.enter("control");
   {
     Cluster cluster(network);
-    hosts.expect("cut", " motion 3");
-    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion is silent"); }))
-        << cluster.told();
-    // The alarm of the other side comes when the cut is over.
-    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "Host motion hears no other host"); }))
-        << cluster.told();
-    ASSERT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
+    ASSERT_NO_FATAL_FAILURE(cut_off_motion(hosts, cluster));
     ASSERT_TRUE(cluster.until([&] {
       cluster.reset_alarms();
       return cluster.active_alarms().empty();

@@ -3,7 +3,7 @@
 // of the library.
 #include <fstream>
 
-#include "analysis/part_path.hpp"
+#include "analysis/test/part_path.hpp"
 #include "cluster_harness.hpp"
 #include "machine/axes.hpp"
 #include "machine/machine.hpp"
@@ -156,15 +156,15 @@ TEST(Kinematics, TheServiceComputesTheBitsOfTheLibrary) {
   const auto chain = machine::make_chain(parameters, 0);
   const auto axes = machine::channel_axes(parameters, 0);
   Cluster cluster(name);
-  auto paths = cluster.client().bus().reader(topics::path_frame);
-  auto machines = cluster.client().bus().reader(topics::kinematics_frame);
-  std::map<std::uint64_t, idl::stream::PathFrame> path_frames;
-  std::map<std::uint64_t, idl::stream::AxisFrame> machine_frames;
+  auto paths = cluster.client().bus().reader(topics::path_batch);
+  auto machines = cluster.client().bus().reader(topics::kinematics_batch);
+  std::map<std::uint64_t, idl::stream::PathBatch> path_batches;
+  std::map<std::uint64_t, idl::stream::AxisBatch> machine_batches;
   const auto collect = [&] {
-    idl::stream::PathFrame path;
-    while (paths.take(path)) path_frames[path.first] = path;
-    idl::stream::AxisFrame machine;
-    while (machines.take(machine)) machine_frames[machine.first] = machine;
+    idl::stream::PathBatch path;
+    while (paths.take(path)) path_batches[path.first] = path;
+    idl::stream::AxisBatch machine;
+    while (machines.take(machine)) machine_batches[machine.first] = machine;
   };
   cluster.start("rtcp.nc");
   ASSERT_TRUE(cluster.until(
@@ -175,9 +175,9 @@ TEST(Kinematics, TheServiceComputesTheBitsOfTheLibrary) {
       60))
       << cluster.active_alarms();
   std::size_t transformed = 0;
-  for (const auto& [first, path] : path_frames) {
-    const auto found = machine_frames.find(first);
-    if (found == machine_frames.end()) continue;
+  for (const auto& [first, path] : path_batches) {
+    const auto found = machine_batches.find(first);
+    if (found == machine_batches.end()) continue;
     const auto& machine = found->second;
     ASSERT_EQ(machine.axes, axes.number);
     for (std::uint32_t row = 0; row < std::min(path.count, machine.count); ++row) {

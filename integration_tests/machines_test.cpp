@@ -34,8 +34,8 @@ TEST(Machines, TwoChannelsRunTwoProgramsAtOnce) {
   ASSERT_TRUE(cluster.finish(0)) << cluster.active_alarms();
   ASSERT_TRUE(cluster.finish(1)) << cluster.active_alarms();
   EXPECT_EQ(cluster.active_alarms(), "");
-  // G54 of the channels: X10 Y20 and X-10 Y-20; left ends at X50 Y50, right at X60 Y0. The drive's frames may
-  // arrive after the channel's state.
+  // G54 of the channels: X10 Y20 and X-10 Y-20; left ends at X50 Y50, right at X60 Y0. The drive's batches
+  // may arrive after the channel's state.
   cluster.until([&] { return std::abs(cluster.rows.back()[0] - 60) < 1e-9; }, 5);
   EXPECT_NEAR(cluster.rows.back()[0], 60, 1e-9);
   EXPECT_NEAR(cluster.rows.back()[1], 70, 1e-9);
@@ -58,7 +58,7 @@ TEST(Machines, MessagesThatNoFieldCanHaveAreRefusedAndTheMachineRunsOn) {
   Cluster cluster("ac-table");
   auto& bus = cluster.client().bus();
   auto requests = bus.writer(topics::stream_request);
-  auto frames = bus.writer(topics::gantry_frame);
+  auto batches = bus.writer(topics::gantry_batch);
   auto sets = bus.writer(topics::parameter_set);
   const auto of_this_process = " from process " + std::to_string(getpid());
   const auto send = [&](auto& writer, const auto& message, const std::string& text,
@@ -85,20 +85,20 @@ TEST(Machines, MessagesThatNoFieldCanHaveAreRefusedAndTheMachineRunsOn) {
   send(requests, request, "drive refused");
   request.channel = 65535;
   send(requests, request, "the newest: channel: 65535, must be 0 to 31");
-  idl::stream::AxisFrame frame;
-  frame.count = 1, frame.axes = {0}, frame.setpoints = {std::numeric_limits<double>::quiet_NaN()};
-  send(frames, frame, "the newest: setpoints: not a finite number", "trunnion/gantry/axis_frame/1");
-  frame.setpoints = {0};
-  send(frames, frame, "the newest: lines: 0 values, must be 1 rows of 1", "trunnion/gantry/axis_frame/1");
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::AxisBatch batch;
+  batch.count = 1, batch.axes = {0}, batch.setpoints = {std::numeric_limits<double>::quiet_NaN()};
+  send(batches, batch, "the newest: setpoints: not a finite number", "trunnion/gantry/axis_batch/1");
+  batch.setpoints = {0};
+  send(batches, batch, "the newest: lines: 0 values, must be 1 rows of 1", "trunnion/gantry/axis_batch/1");
+  idl::stream::Feedback feedback;
   feedback.axis_count = 65535;
-  auto reports = bus.writer(topics::feedback_frame);
+  auto reports = bus.writer(topics::feedback);
   send(reports, feedback, "plc refused");
-  idl::stream::PathFrame path;
-  auto paths = bus.writer(topics::path_frame);
-  send(paths, path, "the newest: count: 0, must be 1 to 64", "trunnion/channel/path_frame/1");
-  frame.lines = {0}, frame.revision = 12345;
-  send(frames, frame, "parameter revision 12345, which has not arrived");
+  idl::stream::PathBatch path;
+  auto paths = bus.writer(topics::path_batch);
+  send(paths, path, "the newest: count: 0, must be 1 to 64", "trunnion/channel/path_batch/1");
+  batch.lines = {0}, batch.revision = 12345;
+  send(batches, batch, "parameter revision 12345, which has not arrived");
   idl::parameters::ParameterSet set;
   set.values = {{100006, std::numeric_limits<double>::infinity(), ""}};
   send(sets, set, "the newest: value: not a finite number", "trunnion/parameters/set/1");

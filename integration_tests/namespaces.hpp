@@ -111,7 +111,7 @@ class ThreeHosts {
     return running;
   }
   /// From now on the sockets that this thread and the threads it starts make are on `host`, and they go
-  /// before the cluster's: one who looks on must not lose frames of virtual time, which waits for nobody.
+  /// before the cluster's: one who looks on must not lose batches of virtual time, which waits for nobody.
   void enter(const std::string& host) {
     home_ = open("/proc/self/ns/net", O_RDONLY | O_CLOEXEC);
     const int there = open(("/run/netns/" + prefix_ + "-" + host).c_str(), O_RDONLY | O_CLOEXEC);

@@ -75,7 +75,7 @@ TEST_F(OneCluster, ASecondStartInTheDomainOrTheStateDirectoryIsRefusedAndNamesTh
   for (std::uint32_t domain = 80; domain < 100; ++domain) {
     const auto run = cluster::RunDirectory{domain}.path();
     std::error_code gone;
-    EXPECT_TRUE(cluster.until([&] { return !fs::is_empty(run, gone) || gone; }, 5)) << run << " is left";
+    EXPECT_TRUE(cluster.until([&] { return !fs::is_empty(run, gone) || gone; })) << run << " is left";
   }
   EXPECT_TRUE(cluster.until([&] { return cluster.ready(); })) << "the first one is undisturbed";
   EXPECT_EQ(cluster.running().run.launcher(), launcher);

@@ -8,7 +8,7 @@ examples=$(realpath "$(dirname "$0")/../examples")
 start_cluster ac-table
 url=http://localhost:$port/
 # A recording to open in the page: it is made by a cluster of its own.
-(cd "$work" && "$trunnion" run ac-table nas979_cone --record cone.mcap > /dev/null && "$trunnion" export cone.mcap --csv feedback_frame --output cone.csv)
+(cd "$work" && "$trunnion" run ac-table nas979_cone --record cone.mcap > /dev/null && "$trunnion" export cone.mcap --csv feedback --output cone.csv)
 cd "$page"
 EXPORTED=$work/cone.csv SCREENSHOTS=$screenshots TRUNNION_URL=$url npm run --silent browser
 # Drawn programs: the ladder of the example and a chart take over.

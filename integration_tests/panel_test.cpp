@@ -64,10 +64,10 @@ class Panel {
 
 /// Where the drive has been ordered to be, of the newest cycle.
 void keep_commanded(Cluster& cluster, std::vector<double>& commanded) {
-  cluster.on_frame = [&commanded](const idl::stream::FeedbackFrame& frame) {
-    if (frame.count > 0)
-      commanded.assign(frame.commanded.end() - static_cast<std::ptrdiff_t>(frame.axis_count),
-                       frame.commanded.end());
+  cluster.on_batch = [&commanded](const idl::stream::Feedback& feedback) {
+    if (feedback.count > 0)
+      commanded.assign(feedback.commanded.end() - static_cast<std::ptrdiff_t>(feedback.axis_count),
+                       feedback.commanded.end());
   };
 }
 

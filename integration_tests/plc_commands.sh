@@ -115,13 +115,13 @@ is "cross reference" "$("$trunnion" plc check line.st --cross-reference --json |
 
 # Instruction lists: errors with their places, the cross reference together with that of other files.
 printf 'LD %%X9.0\nAND M7\nST %%Y9.0\n' > wrong.il
-refused "an instruction list" "wrong.il:2:5: error: 'M7' is neither an address nor a name" check wrong.il
+refused "an instruction list" "wrong.il:2:5: error: there is no variable 'M7'" check wrong.il
 "$trunnion" plc check wrong.il --json > out 2>&1 || true
 grep -q '"severity":"error","file":"wrong.il","line":2,"column":5' out || fail "$(cat out)"
 printf 'VAR\n  lamp AT %%Y9.0 : BOOL\nEND_VAR\nLD %%X9.0\nST lamp\nLD %%W10\nADD 1\nST %%W11\n' > fast.il
 sed -i '/quick/d' line.st
 "$trunnion" plc check line.st fast.il --cross-reference > out || fail "$(cat out)"
-grep -A1 -x "%Y9.0  lamp" out | grep -qx "  fast.il:5:4: writes" || fail "$(cat out)"
+grep -A1 -x "%Y9.0  fast.lamp" out | grep -qx "  fast.il:5:4: writes" || fail "$(cat out)"
 grep -A2 -x "%W10" out | grep -qx "  fast.il:6:4: reads" || fail "$(cat out)"
 "$trunnion" plc check fast.il > out || fail "$(cat out)"
 

@@ -37,7 +37,7 @@ for vendor in cyclonedds fastdds; do
   await_idle
   kill -INT $command
   wait $command || fail "$vendor: $(cat "$work/record")"
-  for topic in path_frame feedback_frame; do
+  for topic in path_batch feedback; do
     grep -q "$topic: [0-9]* cycles, 0 lost" "$work/record" || fail "$vendor: $(cat "$work/record")"
   done
   "$trunnion" verify --service channel --recording "$work/$vendor.mcap" --machine "$2/ac-table" > "$work/verify" 2>&1 ||

@@ -40,8 +40,8 @@ status=0
 [ $status = 1 ] && grep -q "^first difference: " "$work/diff" || fail "two machines are not the same"
 
 # A line for every cycle and the header.
-cycles=$("$trunnion" info "$golden" | awk '$1 == "feedback_frame" && $2 == 0 {print $5}')
-[ "$("$trunnion" export "$golden" --csv feedback_frame | wc -l)" = $((cycles + 1)) ] || fail "not a line for every cycle"
+cycles=$("$trunnion" info "$golden" | awk '$1 == "feedback" && $2 == 0 {print $5}')
+[ "$("$trunnion" export "$golden" --csv feedback | wc -l)" = $((cycles + 1)) ] || fail "not a line for every cycle"
 
 # What is cut off is read, and said to be; what is no recording is one line.
 head -c $(($(stat -c %s "$golden") - 30000)) "$golden" > "$work/cut.mcap"
@@ -61,7 +61,7 @@ printf '%b' "$(printf '\\x%02x' $(($(od -An -tu1 -j $at -N1 "$whole") ^ 1)))" |
 named='bytes [0-9]* to [0-9]*, messages of .*Z to .*Z: the chunk '
 "$trunnion" info "$work/damaged.mcap" > "$work/info"
 grep -q "^damaged    $named" "$work/info" || fail "$(cat "$work/info")"
-last() { "$trunnion" export "$1" --csv feedback_frame 2> "$work/said" | tail -1; }
+last() { "$trunnion" export "$1" --csv feedback 2> "$work/said" | tail -1; }
 [ "$(last "$whole")" = "$(last "$work/damaged.mcap")" ] || fail "nothing is read behind the damage"
 grep -q "$work/damaged.mcap: warning: damaged, $named" "$work/said" || fail "export: $(cat "$work/said")"
 # refuses COMMAND...: with status 1, and names what is missing.

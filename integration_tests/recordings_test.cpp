@@ -54,8 +54,8 @@ TEST_P(Recording, OfThreeRunsOfWhichTheLastTwoAreTheSameFromTheirStarts) {
   if (GetParam().time == Time::real || GetParam().machine == "two-channel") return;
   const auto recording = verification::load_recording(machine_.file("runs.mcap"));
   verification::DiffOptions options;
-  options.topics = {"path_frame",   "kinematics_frame",  "compensation_frame",
-                    "gantry_frame", "auxiliary_request", "auxiliary_done"};
+  options.topics = {"path_batch",   "kinematics_batch",  "compensation_batch",
+                    "gantry_batch", "auxiliary_request", "auxiliary_done"};
   const auto d = verification::difference(verification::aligned(recording, 0, 2),
                                           verification::aligned(recording, 0, 3), options);
   EXPECT_TRUE(d.equal()) << text_of(d, "second", "third");
@@ -107,7 +107,7 @@ TEST_P(Recording, OfAMachineWhoseCountersPassThirtyOneAndThirtyTwoBits) {
   machine_.record("early.mcap");
   machine_.run_programs();
   machine_.stop_recording();
-  const std::set<std::string> topics{"path_frame", "kinematics_frame", "compensation_frame", "gantry_frame"};
+  const std::set<std::string> topics{"path_batch", "kinematics_batch", "compensation_batch", "gantry_batch"};
   verification::DiffOptions options;
   options.topics = topics;
   const auto early = verification::load_recording(machine_.file("early.mcap"));

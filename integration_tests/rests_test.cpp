@@ -146,7 +146,7 @@ TEST_P(Rests, EveryServiceIsReplacedAndTheMachineMoves) {
     if (!rest.again && service != chosen.back()) continue;
     x = -x;
     ASSERT_NO_FATAL_FAILURE(move(machine, x));
-    EXPECT_TRUE(machine.cluster().until([&] { return machine.cluster().active_alarms().empty(); }, 5))
+    EXPECT_TRUE(machine.cluster().until([&] { return machine.cluster().active_alarms().empty(); }))
         << machine.cluster().active_alarms();
   }
 }

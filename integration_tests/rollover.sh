@@ -11,15 +11,15 @@ mdi() { "$trunnion" mdi "$1" --domain "$domain" > "$work/said" 2>&1 || fail "$1:
 # c SHOWN TURNED: of the channel at rest, and of the drive, which does not lose the turns, once it has executed as much.
 c() {
   await_idle
-  timeout 20 "$python" - "$work/state.json" "$1" "$2" <(exec "$trunnion" topic echo feedback_frame --json --domain "$domain") "$work/at" \
+  timeout 20 "$python" - "$work/state.json" "$1" "$2" <(exec "$trunnion" topic echo feedback --json --domain "$domain") "$work/at" \
     <<'END' || fail "not $1 and $2: $(cat "$work/at")"
 import json, sys
 state, shown, turned = json.load(open(sys.argv[1])), float(sys.argv[2]), float(sys.argv[3])
 column = state["letters"].index("C")
 for line in open(sys.argv[4]):
-    frame = json.loads(line)
-    if frame["first"] + frame["count"] < state["cycle"]: continue
-    found = state["machine"][column], frame["position"][column]
+    batch = json.loads(line)
+    if batch["first"] + batch["count"] < state["cycle"]: continue
+    found = state["machine"][column], batch["position"][column]
     print(f"C is shown at {found[0]}, the drive is at {found[1]}", file=open(sys.argv[5], "w"))
     if abs(found[0] - shown) < 1e-2 and abs(found[1] - turned) < 1e-3: break
 else:

@@ -55,14 +55,14 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", seconds);
   app.add_option("--mark", mark);
   app.add_option("action", action)->required()->check(CLI::IsMember({"write", "read"}));
-  app.add_option("topic", topic)->required()->check(CLI::IsMember({"path_frame", "gantry_frame"}));
+  app.add_option("topic", topic)->required()->check(CLI::IsMember({"path_batch", "gantry_batch"}));
   CLI11_PARSE(app, argc, argv);
   try {
     bus::Bus bus(bus::vendor_from(vendor), network);
-    if (topic == "path_frame")
-      take_part(bus, topics::path_frame, action == "write", mark, seconds);
+    if (topic == "path_batch")
+      take_part(bus, topics::path_batch, action == "write", mark, seconds);
     else
-      take_part(bus, topics::gantry_frame, action == "write", mark, seconds);
+      take_part(bus, topics::gantry_batch, action == "write", mark, seconds);
   } catch (const std::exception& e) {
     std::printf("refused %s\n", e.what());
   }

@@ -53,7 +53,7 @@ struct Result {
 };
 
 std::future<Result> start(const Peer& peer, const std::string& action, std::uint32_t domain, int mark = 0,
-                          const std::string& topic = "path_frame", double seconds = 4) {
+                          const std::string& topic = "path_batch", double seconds = 4) {
   const std::string command =
       cluster::binary_directory() + "/security-peer --domain " + std::to_string(domain) + " --vendor " +
       peer.vendor + " --mark " + std::to_string(mark) + " --seconds " + std::to_string(seconds) +
@@ -162,15 +162,15 @@ TEST(Security, PermissionsAreThoseOfTheTopics) {
   };
   EXPECT_EQ(generate(TRUNNION_SECURITY "/../../idl/topics.yaml"), "");
   using Names = std::set<std::string>;
-  for (const auto& [topic, writer] : {std::pair<std::string, std::string>{"channel/path_frame/1", "channel"},
-                                      {"kinematics/axis_frame/1", "kinematics"},
-                                      {"compensation/axis_frame/1", "compensation"},
-                                      {"gantry/axis_frame/1", "gantry"},
-                                      {"drive/feedback_frame/1", "drive"},
+  for (const auto& [topic, writer] : {std::pair<std::string, std::string>{"channel/path_batch/1", "channel"},
+                                      {"kinematics/axis_batch/1", "kinematics"},
+                                      {"compensation/axis_batch/1", "compensation"},
+                                      {"gantry/axis_batch/1", "gantry"},
+                                      {"drive/feedback/1", "drive"},
                                       {"plc/outputs/1", "plc"},
                                       {"parameters/set/1", "parameters"}})
     EXPECT_EQ(who_may(directory, "publish", "trunnion/" + topic), Names{writer}) << topic;
-  EXPECT_EQ(who_may(directory, "subscribe", "trunnion/channel/path_frame/1"),
+  EXPECT_EQ(who_may(directory, "subscribe", "trunnion/channel/path_batch/1"),
             (Names{"kinematics", "deploy", "recorder"}));
   EXPECT_EQ(who_may(directory, "publish", "trunnion/service/swap_request/1"), Names{"deploy"})
       << "it carries the path of an executable";
@@ -191,7 +191,7 @@ TEST(Security, PermissionsAreThoseOfTheTopics) {
   EXPECT_EQ(generate(table_of("  - {name: swarf, qos: state, writers: [plc], readers: [gateway]}\n")), "");
   EXPECT_EQ(who_may(directory, "publish", "swarf"), Names{"plc"});
   EXPECT_EQ(who_may(directory, "subscribe", "swarf"), (Names{"gateway", "deploy", "recorder"}));
-  EXPECT_EQ(who_may(directory, "publish", "trunnion/channel/path_frame/1"), Names{});
+  EXPECT_EQ(who_may(directory, "publish", "trunnion/channel/path_batch/1"), Names{});
   EXPECT_NE(generate(table_of("  - {name: swarf, qos: state, writers: [conveyor], readers: []}\n"))
                 .find("topic swarf names the unknown service conveyor"),
             std::string::npos);
@@ -215,9 +215,9 @@ TEST_P(SecureCluster, RunsAProgramAndTakesARestartedServiceBackWhileARogueNeithe
   Cluster cluster(directory, Time::virtual_, GetParam());
   const auto domain = cluster.running().run.domain;
   const std::string vendor = GetParam(), rogue_vendor = vendor == "mixed" ? "cyclonedds" : vendor;
-  auto spy = start({rogue_vendor, "", ""}, "read", domain, 0, "gantry_frame");
+  auto spy = start({rogue_vendor, "", ""}, "read", domain, 0, "gantry_batch");
   // Not the same topic: the two would talk to each other.
-  auto rogue = start({rogue_vendor, "", ""}, "write", domain, 7, "path_frame");
+  auto rogue = start({rogue_vendor, "", ""}, "write", domain, 7, "path_batch");
   std::string text = "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n";
   for (int i = 0; i < 4; ++i) text += "X60 Y30 A20 C40 F6000\nX-60 Y-30 A-10 C-20\n";
   text += "X0 Y0 A0 C0\nG49\nM30\n";
@@ -238,7 +238,7 @@ TEST_P(SecureCluster, RunsAProgramAndTakesARestartedServiceBackWhileARogueNeithe
   EXPECT_EQ(heard(read), std::set<int>{}) << read.text;
   EXPECT_GT(written.samples.at(7), 20) << written.text;
   EXPECT_EQ(written.matched, 0) << "nobody listened";
-  EXPECT_FALSE(cluster.has_alarm(103)) << "a foreign frame would differ from ours";
+  EXPECT_FALSE(cluster.has_alarm(103)) << "a foreign batch would differ from ours";
   EXPECT_EQ(cluster.active_alarms(), "");
 }
 

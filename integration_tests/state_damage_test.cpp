@@ -146,10 +146,10 @@ TEST_F(StateDamage, EveryDamageOfEveryFileIsFoundNamedAndRepaired) {
         }
         return true;
       };
-      EXPECT_TRUE(cluster.until(found, 5)) << cluster.active_alarms();
+      EXPECT_TRUE(cluster.until(found)) << cluster.active_alarms();
       EXPECT_FALSE(cluster.has_alarm(alarm::state_lost.number)) << cluster.active_alarms();
       if (start_number == ways) break;
-      EXPECT_TRUE(cluster.until([&] { return !cluster.channels[0].homed; }, 2)) << "the channel knows of it";
+      EXPECT_TRUE(cluster.until([&] { return !cluster.channels[0].homed; })) << "the channel knows of it";
       EXPECT_EQ(cluster.client().newest(topics::tool_table).tools.back().length, length_before);
       for (const auto& value : cluster.client().newest(topics::parameter_set).values)
         if (value.number == 100034) {

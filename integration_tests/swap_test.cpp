@@ -385,9 +385,9 @@ TEST_F(Swapping, ChannelAndDriveAreSwappedAtRestWithTheirStateAndNotInMotion) {
     }
   })) << cluster.told();
   ASSERT_TRUE(cluster.finish()) << cluster.told();
-  EXPECT_TRUE(cluster.until(
-      [&] { return std::abs(cluster.channels[0].machine[0] - before.machine[0] - 12.5) < 0.01; }, 5))
-      << cluster.channels[0].machine[0];
+  EXPECT_TRUE(cluster.until([&] {
+    return std::abs(cluster.channels[0].machine[0] - before.machine[0] - 12.5) < 0.01;
+  })) << cluster.channels[0].machine[0];
 
   cluster.start_text(sweep(3000));
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 8; }));

@@ -76,6 +76,14 @@ class Hosts : public testing::Test {
     const auto why = no_namespaces();
     if (!why.empty()) GTEST_SKIP() << why;
   }
+  /// Cuts host motion off for 3 s, and returns when the machine is ready again. The alarm of motion itself
+  /// comes when the cut is over.
+  static void cut_off_motion(const ThreeHosts& hosts, Cluster& cluster) {
+    hosts.expect("cut", " motion 3");
+    for (const auto* side : {"Host motion is silent, and with it ", "Host motion hears no other host"})
+      ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, side); })) << cluster.told();
+    ASSERT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
+  }
   /// One for each test: a domain keeps the sockets of the namespace in which this process opened it.
   const std::uint32_t domain = 11 + count_++;
 

@@ -49,9 +49,9 @@ TEST(TouchAndTap, TheSpindleFollowsTheToolIntoTheThreadAndOutAgain) {
     double z, turns;
   };
   std::vector<Row> actual;  // Z is column 2 of the feedback, the machine has one spindle
-  cluster.on_frame = [&](const idl::stream::FeedbackFrame& frame) {
-    for (std::uint32_t i = 0; i < frame.count; ++i)
-      actual.push_back({frame.actual[i * frame.axis_count + 2], frame.spindle_angle[i]});
+  cluster.on_batch = [&](const idl::stream::Feedback& feedback) {
+    for (std::uint32_t i = 0; i < feedback.count; ++i)
+      actual.push_back({feedback.actual[i * feedback.axis_count + 2], feedback.spindle_angle[i]});
   };
   // M10: lead 1.5 at 600 1/min, from R2 to -12: 14 mm, 9 1/3 turns.
   cluster.start_text("G90 G54 G49 G94\nG0 Z20\nS600 M3\nG99 G84 X0 Y0 Z-12 R2 F900\nG80 M5\nG0 Z20\nM30\n");

@@ -144,7 +144,7 @@ struct KilledTouchProbe : TouchProbe, ::testing::WithParamInterface<std::vector<
 TEST_P(KilledTouchProbe, MeasuresTheRightCentreOrStopsWithAnAlarmAndMeasuresItAnew) {
   start(ideal_probe + sphere);
   std::uint64_t touches = 0;
-  cluster->on_frame = [&](const idl::stream::FeedbackFrame& frame) { touches += frame.skips.size(); };
+  cluster->on_batch = [&](const idl::stream::Feedback& batch) { touches += batch.skips.size(); };
   cluster->start("measure_sphere.nc");
   ASSERT_TRUE(cluster->until([&] { return touches >= 4; })) << cluster->told();
   std::map<std::string, std::uint32_t> restarts;

@@ -37,7 +37,7 @@ awk '/^squareness/ && ($2 < 9.8 || $2 > 10.2) { exit 1 } /^lost motion X/ && ($4
 "$trunnion" measure laser "$machine" --error EXX --from -100 --to 100 --plot "$work/laser.svg" > "$work/laser"
 # 20 um/m over 0.2 m.
 is laser "$(awk '$1 == "mean_bidirectional_M" { print $2 }' "$work/laser")" 4.000
-"$trunnion" measure rtest "$machine" --axis C --at 10,20,-300 --points 3 --json |
+"$trunnion" measure sensor-nest "$machine" --axis C --at 10,20,-300 --points 3 --json |
   "$python" -c 'import json, sys; assert len(json.load(sys.stdin)["readings"]) == 3'
 for picture in grid circle laser; do well_formed "$work/$picture.svg"; done
 
@@ -47,7 +47,7 @@ run() {
   local name=$1
   shift
   "$trunnion" run "$machine" "$work/circle.nc" --report "$work/$name" "$@" > "$work/$name.log" 2>&1 || fail "$(cat "$work/$name.log")"
-  "$trunnion" export "$work/$name/recording.mcap" --csv feedback_frame > "$work/$name.csv"
+  "$trunnion" export "$work/$name/recording.mcap" --csv feedback > "$work/$name.csv"
 }
 # Cycle, channel, epoch, revision, and both positions of five axes: what does not depend on when and in which batches it
 # was written.

@@ -33,7 +33,7 @@ TEST_P(Stage, OneWrongBitIsFoundAtItsCycleAndField) {
   const auto result = verification::verify(options);
   EXPECT_EQ(result.problem, "") << "it answers everything";
   ASSERT_TRUE(result.difference.first.has_value());
-  EXPECT_EQ(result.difference.first->topic, GetParam() + "_frame");
+  EXPECT_EQ(result.difference.first->topic, GetParam() + "_batch");
   EXPECT_EQ(result.difference.first->index, wrong_cycle);
   EXPECT_EQ(result.difference.first->field, "setpoint.axis0");
   ASSERT_EQ(result.difference.topics.size(), 1u);
@@ -60,7 +60,7 @@ TEST(Verify, ACompensationWithTheSignOfBacklashTurnedRoundIsFound) {
   const auto result = verification::verify(options);
   EXPECT_EQ(result.problem, "") << "it answers everything";
   ASSERT_TRUE(result.difference.first.has_value());
-  EXPECT_EQ(result.difference.first->topic, "compensation_frame");
+  EXPECT_EQ(result.difference.first->topic, "compensation_batch");
   EXPECT_FALSE(result.equal());
 }
 
@@ -78,7 +78,7 @@ TEST(Verify, SaysThatTheParametersAreTheRecordingsAndUsesTheMachinesWhenAsked) {
       << delivered.parameters;
   EXPECT_FALSE(delivered.equal());
   ASSERT_TRUE(delivered.difference.first.has_value()) << delivered.problem;
-  EXPECT_EQ(delivered.difference.first->topic, "compensation_frame");
+  EXPECT_EQ(delivered.difference.first->topic, "compensation_batch");
   options.service = "parameters";
   EXPECT_THROW(verification::verify(options), std::runtime_error);
 }
@@ -100,7 +100,7 @@ TEST(Verify, AServiceThatAnswersNothingIsAProblemAfterItsPatience) {
   options.timeout = 0.5;
   const auto result = verification::verify(options);
   fs::remove(script);
-  EXPECT_NE(result.problem.find("wrote nothing more of compensation_frame"), std::string::npos)
+  EXPECT_NE(result.problem.find("wrote nothing more of compensation_batch"), std::string::npos)
       << result.problem;
   EXPECT_FALSE(result.equal());
 }

@@ -12,7 +12,7 @@ import argparse, os, re, sys, textwrap
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 WIDTH = 120
 GLOSSARY = "docs/glossary.md"
-TEXTS = ("libs/machine/alarms.yaml", "libs/machine/catalogue.yaml", "libs/plc/library/registers.yaml", "libs/language/alarms.hpp")
+TEXTS = ("libs/machine/machine/alarms.yaml", "libs/machine/machine/catalogue.yaml", "libs/plc/plc/library/registers.yaml")
 PRODUCT = ("libs", "services", "gateway", "deploy", "idl")
 SOURCE = re.compile(r"\.(cpp|hpp)$|/english\w*\.ts$|^gateway/openapi\.json$|^idl/\w+\.yaml$")
 NOT_PRODUCT = re.compile(r"/(test|bench|browser|testing_support|node_modules)/|/templates/")

@@ -147,6 +147,9 @@ def ts_members(schema, indent):
     return lines
 
 
+def body_of(item): return item["post"]["requestBody"]["content"]["application/json"]["schema"]
+
+
 def typescript(document):
     out = ["// SPDX-License-Identifier: Apache-2.0\n// Generated from gateway/openapi.json by tools/generate_api.py."]
     for name, schema in document["components"]["schemas"].items():
@@ -157,10 +160,12 @@ def typescript(document):
             out += [f"export type {name} = {ts_type(schema)};", ""]
     out += ["/** Bodies of POST /api/channels/{channel}/..., by the last part of the path. */", "export interface ChannelCommands {"]
     for path, item in document["paths"].items():
-        if path.startswith(CHANNEL):
-            body = item["post"]["requestBody"]["content"]["application/json"]["schema"]
-            out.append(f'  "{path[len(CHANNEL):]}": {ts_type(body)};')
-    return "\n".join(out + ["}"]) + "\n"
+        if path.startswith(CHANNEL): out.append(f'  "{path[len(CHANNEL):]}": {ts_type(body_of(item))};')
+    out += ["}", "", "/** What POST /api/channels/{channel}/override accepts as value, by the kind. */", "export const overrideLimits = {"]
+    for kind in body_of(document["paths"][CHANNEL + "override"])["oneOf"]:
+        value = kind["properties"]["value"]
+        out.append(f"  {kind['properties']['kind']['const']}: {{ minimum: {value['minimum']}, maximum: {value['maximum']} }},")
+    return "\n".join(out + ["};"]) + "\n"
 
 
 # The reference, docs/api.md.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Turns idl/operator_commands.yaml into the table in C++ and docs/operator-commands.md.
+"""Turns idl/operator_commands.yaml into the table in C++, the limits of the overrides and docs/operator-commands.md.
 
 gateway/openapi.json gets its entries from generate_api.py, which reads the same table.
 """
@@ -94,6 +94,18 @@ def cpp(table):
     return "\n".join(out) + "\n"
 
 
+def override_limits(table):
+    """For those who bring an override within its limits: the table's own check refuses what is outside."""
+    out = ["// Generated from idl/operator_commands.yaml by tools/generate_commands.py.", "#pragma once", "", "#include <algorithm>", "",
+           "namespace trunnion::commands {", "", "struct OverrideLimits {", "  double minimum, maximum;",
+           "  constexpr double clamp(double fraction) const { return std::clamp(fraction, minimum, maximum); }", "};", ""]
+    for row in table["channel"]:
+        if row["route"] != "override": continue
+        field = row["fields"][0]
+        out.append(f"inline constexpr OverrideLimits {row['command'].lower()}{{{float(field['minimum'])}, {float(field['maximum'])}}};")
+    return "\n".join(out + ["", "}  // namespace trunnion::commands"]) + "\n"
+
+
 def number(value): return f"{value:,}" if isinstance(value, int) else f"{value:g}"
 
 
@@ -147,7 +159,7 @@ def write(path, text):
 
 if __name__ == "__main__":
     p = argparse.ArgumentParser(description=__doc__)
-    p.add_argument("--table", required=True); p.add_argument("--cpp", required=True); p.add_argument("--document", required=True)
+    for name in ("--table", "--cpp", "--limits", "--document"): p.add_argument(name, required=True)
     a = p.parse_args()
     rows = load(a.table)
-    write(a.cpp, cpp(rows)); write(a.document, document(rows))
+    write(a.cpp, cpp(rows)); write(a.limits, override_limits(rows)); write(a.document, document(rows))

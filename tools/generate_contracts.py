@@ -178,7 +178,7 @@ def generate(args):
     scope = Scope(types)
     with open(args.topics) as f: document = yaml.safe_load(f)
     topics, standby_suffix = document["topics"], document["standby_suffix"]
-    qos_names = {"frame", "state", "event", "history"}
+    qos_names = {"batch", "state", "event", "history"}
     for t in topics:
         if t["type"] not in scope.by_name: sys.exit(f"{args.topics}: error: topic {t['name']} has the unknown type {t['type']}")
         if t["qos"] not in qos_names: sys.exit(f"{args.topics}: error: topic {t['name']} has the unknown qos {t['qos']}")
@@ -233,7 +233,7 @@ def generate(args):
     registry += ["  };", "  return entries;", "}", "}"]
     doc += ["", "## Quality of service", "", "All topics are reliable. `share/trunnion/sdk/fastdds.xml` has it as profiles.", "",
             "| QoS | durability | writers keep | readers keep |", "|---|---|---|---|",
-            "| frame | transient local | the newest 1024 or more of the topic (twice what is written ahead, in batches, and 6) | all |",
+            "| batch | transient local | the newest 1024 or more of the topic (twice what is written ahead, in batches, and 6) | all |",
             "| state | transient local | the newest of each key | the newest of each key |",
             "| event | writers: transient local, for recorders; readers: volatile | the newest 64; a slow reader loses old ones and stalls no writer | the newest 64 |",
             "| history | transient local | the newest 16 of each key | the newest 16 of each key |"]

@@ -7,6 +7,7 @@ With --check nothing is written: differences are printed and the exit status is 
 """
 import argparse, difflib, json, os, re, sys, textwrap
 import yaml
+from alarm_table import AlarmTable
 
 WIDTH = 120  # of a line of prose
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -52,7 +53,7 @@ def number(value):
 
 
 def parameters():
-    path = "libs/machine/catalogue.yaml"
+    path = "libs/machine/machine/catalogue.yaml"
     catalogue = yaml.safe_load(read(path))
     out = ["# Parameters", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
            "The number of a parameter is the base of its class, plus 1000 for each unit (channel c, axis a), plus the offset: `10a034` is 100034 "
@@ -79,65 +80,51 @@ def parameters():
     return out
 
 
-MACHINE_ALARMS = "libs/machine/alarms.yaml"
+ALARMS = "libs/machine/machine/alarms.yaml"
 
 
-def machine_alarms():
-    rows = sorted(yaml.safe_load(read(MACHINE_ALARMS))["alarms"], key=lambda a: a["number"])
-    for row in rows:
-        for key in ("cause", "remedy"):
-            if not row.get(key): fail(MACHINE_ALARMS, f"{row['name']}: {key} is missing")
-    return rows
-
-
-def translated_alarms(language, rows):
-    """Text, cause and remedy by number; exactly those of the alarms."""
-    path = f"libs/machine/translations/alarms.{language}.yaml"
-    texts = yaml.safe_load(read(path))
-    wrong = set(texts) ^ {row["number"] for row in rows} | {number for number, one in texts.items() if not all(one.get(key) for key in ("text", "cause", "remedy"))}
-    if wrong: fail(path, f"text, cause and remedy of these alarms are missing, or there are no such alarms: {', '.join(map(str, sorted(wrong)))}")
-    return texts
+def alarm_table(): return AlarmTable(os.path.join(ROOT, ALARMS))
 
 
 def alarm_catalogue():
-    """What the page shows of an alarm beside the service's own text; the NC language's alarms name cause and place in theirs."""
-    out = ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {MACHINE_ALARMS} and its translations by tools/generate_docs.py.", "",
+    """What the page shows of an alarm beside the service's own text."""
+    alarms = alarm_table()
+    english = {row["number"]: row for row in alarms.machine}
+    languages = {"en": (english, alarms.remedy), **{name: alarms.translation(name) for name in ("zh", "de")}}
+    out = ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {ALARMS} and its translations by tools/generate_docs.py.", "",
            "/** What an alarm says, its usual cause and what the operator does, by its number and the language. */",
            "export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { text: string; cause: string; remedy: string }>>>> = {"]
-    rows = machine_alarms()
-    languages = {"en": {row["number"]: row for row in rows}, **{name: translated_alarms(name, rows) for name in ("zh", "de")}}
-    for row in rows:
-        out.append(f"  {row['number']}: {{")
-        for name, texts in languages.items():
-            one = texts[row["number"]]
-            members = (f"{key}: {json.dumps(one[key], ensure_ascii=False)}" for key in ("text", "cause", "remedy"))
+    for number in english:
+        out.append(f"  {number}: {{")
+        for name, (texts, _) in languages.items():
+            members = (f"{key}: {json.dumps(texts[number][key], ensure_ascii=False)}" for key in ("text", "cause", "remedy"))
             out.append(f"    {name}: {{ {', '.join(members)} }},")
         out.append("  },")
-    return out + ["};"]
+    remedies = (f"    {name}: {json.dumps(remedy, ensure_ascii=False)}," for name, (_, remedy) in languages.items())
+    return out + ["};", "", "/** The alarms of the NC language, whose texts name place and cause: what the operator does, by the language. */",
+                  "export const languageAlarms: { first: number; last: number; remedy: Readonly<Record<string, string>> } = {",
+                  f"  first: {alarms.first},", f"  last: {alarms.last},", "  remedy: {", *remedies, "  },", "};"]
 
 
 def alarms():
-    machine, language = MACHINE_ALARMS, "libs/language/alarms.hpp"
-    rows = [(a["number"], f"`{a['name']}`", a["severity"], a["reaction"], a["about"], a["text"], a["cause"], a["remedy"]) for a in machine_alarms()]
-    block = re.search(r"enum class AlarmNumber[^{]*\{(.*?)\};", read(language), re.S)
-    if not block: fail(language, "enum AlarmNumber is not there")
-    numbers = {name: int(value) for name, value in re.findall(r"(\w+)\s*=\s*(\d+)", block.group(1))}
-    texts = {name: joined(text) for name, text in entries(language, "AlarmText", r"AlarmNumber::(\w+),\s*" + TEXT)}
-    if set(texts) != set(numbers) - {"none"}: fail(language, "numbers and texts do not match: " + ", ".join(sorted(set(texts) ^ (set(numbers) - {"none"}))))
-    out = ["# Alarms", "", f"Generated from `{machine}` and `{language}` by `tools/generate_docs.py`.", "",
+    alarms = alarm_table()
+    out = ["# Alarms", "", f"Generated from `{ALARMS}` by `tools/generate_docs.py`.", "",
            "An alarm is latched: it stays until it is reset (`trunnion alarms --reset`, or on the page), and a reset clears only alarms whose cause "
            "is gone. While an alarm with a reaction other than *show* is active, every channel holds on its path and nothing can be started. For 110 "
            "to 113 the drive also brakes by itself; for 130 and 133 it brakes and switches the axes off. [faults.md](faults.md) describes the "
            "reaction to the loss of a process. *about*: the subject of the alarm. A reset of one channel clears the alarms about that channel and "
            "its axes, gantry slaves included, and all that the process of the channel has raised.", "", "## Machine and cluster", ""]
-    out += table(("number", "name", "severity", "reaction", "about", "text", "usual cause", "remedy"), rows)
-    out += ["", "## NC language", "", "Severity *error*, reaction *show*: the program ends at the fault. The text names the place, `program:line:column`, and the word.", ""]
-    return out + table(("number", "text"), [(numbers[n], texts[n]) for n in sorted(texts, key=numbers.get)])
+    out += table(("number", "name", "severity", "reaction", "about", "text", "usual cause", "remedy"),
+                 [(a["number"], f"`{a['name']}`", *(a[key] for key in ("severity", "reaction", "about", "text", "cause", "remedy"))) for a in alarms.machine])
+    common = alarms.common
+    out += ["", "## NC language", "", f"Numbers {alarms.first} to {alarms.last}, severity *{common['severity']}*, reaction *{common['reaction']}*, about the "
+            f"{common['about']}: the program ends at the fault. The text names the place, `program:line:column`, and the word. Remedy: {alarms.remedy}", ""]
+    return out + table(("number", "text"), [(a["number"], a["text"]) for a in alarms.language])
 
 
 def code_tables():
     """Rows of the G codes, of the calls and of the M codes, and the files they are from."""
-    g_path, m_path, calls = (f"libs/language/{f}" for f in ("codes.cpp", "codes.hpp", "macro_call.hpp"))
+    g_path, m_path, calls = (f"libs/program/language/{f}" for f in ("codes.cpp", "codes.hpp", "macro_call.hpp"))
     dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC"}
     program = lambda text: "`" + joined(text).replace("\\n", " / ") + "`"
     shown = r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT
@@ -187,7 +174,7 @@ def codes():
 
 
 def macros():
-    variables, functions, calls = (f"libs/language/{f}.hpp" for f in ("variables", "arithmetic", "macro_call"))
+    variables, functions, calls = (f"libs/program/language/{f}.hpp" for f in ("variables", "arithmetic", "macro_call"))
     v = [(int(a), int(b), w == "true", joined(text)) for a, b, w, text in
          entries(variables, "VariableRange", r"(\d+),\s*(\d+),\s*VariableKind::\w+,\s*(true|false),\s*" + TEXT)]
     f = [(joined(n), joined(text)) for n, text in entries(functions, "FunctionName", TEXT + r",\s*Function::\w+,\s*" + TEXT)]
@@ -250,12 +237,12 @@ def address(first, index, stride):
 def register_areas():
     """Letter, bits, kept, number of registers and meaning of each area, from the table of the compiler."""
     row = re.compile(r"\{'(\w)', (\d+), (true|false), (true|false), (\d+), \"(.*)\"\}")
-    return row.findall(read("libs/plc/machine/register_area.hpp"))
+    return row.findall(read("libs/plc/plc/machine/register_area.hpp"))
 
 
 def registers():
-    path = "libs/plc/library/registers.yaml"
-    out = ["# PLC registers", "", f"Generated from `{path}` and `libs/plc/machine/register_area.hpp` by `tools/generate_docs.py`.", "",
+    path = "libs/plc/plc/library/registers.yaml"
+    out = ["# PLC registers", "", f"Generated from `{path}` and `libs/plc/plc/machine/register_area.hpp` by `tools/generate_docs.py`.", "",
            "## Areas", "",
            "The areas of the manuals. Every register can be addressed as they print it: `%G2960`, `%F2636.10`, `%K15.6`, `%W50`, `%B31`. Instruction "
            "lists and Structured Text see the same registers.", ""]
@@ -293,7 +280,7 @@ def paragraphs(lines): return [line for paragraph in lines for line in wrapped(p
 
 def input_catalogue():
     """The inputs that have a name on every machine and the names of all registers, for the PLC's view of the page."""
-    path = "libs/plc/library/registers.yaml"
+    path = "libs/plc/plc/library/registers.yaml"
     named = yaml.safe_load(read(path))["registers"]
     inputs = [r for r in named if r["address"].startswith("X")]
     return ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {path} by tools/generate_docs.py.", "",
@@ -303,7 +290,7 @@ def input_catalogue():
             *(f"  {json.dumps(r['name'] + ('_' if 'each' in r or 'count' in r else ''))}," for r in named), "]);"]
 
 
-STANDARD = "libs/plc/standard"
+STANDARD = "libs/plc/plc/standard"
 
 
 def standard_tables():

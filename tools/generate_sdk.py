@@ -16,7 +16,7 @@ KEPT = {"state": 1, "event": 64, "history": 16}  # samples per key; batches: all
 
 
 def contract_of(service, topics, wire_types):
-    """What libs/bus/contract.cpp computes."""
+    """What libs/cluster/bus/contract.cpp computes."""
     lines = sorted(f"{t['name']} {wire_types[t['handle']]} {t['qos']}\n" for t in topics
                    if {service, "all"} & {*t["writers"], *t["readers"]})
     hash = 0xcbf29ce484222325

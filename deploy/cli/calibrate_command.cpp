@@ -7,10 +7,11 @@
 
 #include "bus/json.hpp"
 #include "calibration/chain_change.hpp"
-#include "calibration/journal.hpp"
+#include "calibration/last_calibration.hpp"
 #include "calibration_result.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "figures.hpp"
 #include "machine/chain_parameters.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/yaml.hpp"
@@ -27,8 +28,8 @@ int undo(const Common& common) {
   std::map<std::uint32_t, machine::ParameterValue> values;
   for (const auto& [number, value] : last.before) values[number] = {value, ""};
   if (!common.json)
-    print_line("the calibration of %s by %s: %zu parameters get the values of before", last.time.c_str(),
-               last.who.c_str(), values.size());
+    print("the calibration of {} by {}: {} parameters get the values of before", last.time, last.who,
+          values.size());
   return import_parameters(common, values, calibration::undone_by);
 }
 
@@ -66,17 +67,13 @@ TrueMachine load_calibrated_machine(const CalibrationTarget& target, const Commo
                              machine.name);
   cluster::Client client(running.run.domain);
   const auto set = client.newest(topics::parameter_set);
-  machine.model = machine::parameters_of(set);
   for (const auto& pending : set.pending)
     if (machine::is_chain_parameter(pending.number))
       throw std::runtime_error("parameter " + machine::number_text(pending.number) +
                                " of the kinematics waits for a reset; reset the channel first");
-  auto report = std::make_unique<truth::PoseReport>(
-      truth::make_geometry(machine.truth.geometry, machine.outline, "truth.yaml"),
-      machine::make_chain(machine.model, target.channel), machine.outline);
-  report->temperatures = machine.report->temperatures;
-  report->compensation = machine.report->compensation;
-  machine.report = std::move(report);
+  const auto compensation = machine.report->compensation;
+  identification::take_model(machine, machine::parameters_of(set), target.channel);
+  machine.report->compensation = compensation;
   return machine;
 }
 
@@ -91,26 +88,26 @@ int write_change(const CalibrationTarget& target, const Common& common,
   const auto values = calibration::changed_parameters(before, after, target.channel);
   if (!common.json)
     for (const auto& [number, value] : values)
-      print_line("%s %s = %.9g", machine::number_text(number).c_str(),
-                 machine::Catalogue::instance().find(number)->name.c_str(), value.value);
+      print("{} {} = {:.9g}", machine::number_text(number), machine::Catalogue::instance().find(number)->name,
+            value.value);
   if (!target.output.empty()) {
     storage::replace_file(target.output, machine::write_parameter_text(values));
-    if (!common.json) print_line("%s: %zu parameters", target.output.c_str(), values.size());
+    if (!common.json) print("{}: {} parameters", target.output, values.size());
   }
   std::fflush(stdout);
   if (target.write && !values.empty()) {
     if (writer) {
       writer(values);
-      if (!common.json) print_line("written; active after a reset of the channel");
+      if (!common.json) print("written; active after a reset of the channel");
       return 0;
     }
     return import_parameters(common, values, calibration::calibrated_by, common.json);
   }
   if (!common.json && target.output.empty())
-    print_line(
-        target.running
-            ? "nothing written: `trunnion calibrate confirm` writes the result, `discard` gives it up"
-            : "nothing written: --write changes the cluster that runs, --output FILE writes parameters");
+    print("{}",
+          target.running
+              ? "nothing written: `trunnion calibrate confirm` writes the result, `discard` gives it up"
+              : "nothing written: --write changes the cluster that runs, --output FILE writes parameters");
   return 0;
 }
 

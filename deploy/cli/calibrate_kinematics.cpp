@@ -13,6 +13,7 @@
 #include "calibration/program_variables.hpp"
 #include "calibration/protocol.hpp"
 #include "calibration/sphere_check.hpp"
+#include "calibration/virtual_gauges.hpp"
 #include "calibration_result.hpp"
 #include "cluster/cluster.hpp"
 #include "cluster/operating_station.hpp"
@@ -20,7 +21,7 @@
 #include "figures.hpp"
 #include "machine/yaml.hpp"
 #include "measurement_session.hpp"
-#include "report/plot.hpp"
+#include "report/residual_picture.hpp"
 #include "storage/file.hpp"
 #include "variables_command.hpp"
 
@@ -94,35 +95,6 @@ void take_reference(const KinematicsOptions& o, calibration::MeasurementInputs& 
     in.reference_measurement = calibration::parse_reference(machine::read_text(o.reference), o.reference);
 }
 
-// Differences before and residuals after of each pose, in um.
-std::string residual_picture(const calibration::KinematicsResult& result, const std::string& title) {
-  report::Range y{0, 0};
-  for (const auto& pose : result.poses)
-    for (int i = 0; i < 3; ++i)
-      y = {std::min({y.low, um * pose.difference[i], um * pose.residual[i]}),
-           std::max({y.high, um * pose.difference[i], um * pose.residual[i]})};
-  const double margin = std::max(0.1 * y.span(), 0.1);
-  report::Plot plot(80, 70, 640, 320, {0, static_cast<double>(result.poses.size() + 1)},
-                    {y.low - margin, y.high + margin});
-  plot.labels("pose", "um");
-  constexpr const char* colours[]{"#cf222e", "#1a7f37", "#0969da"};
-  for (int i = 0; i < 3; ++i) {
-    std::vector<report::PlotPoint> before, after;
-    for (std::size_t k = 0; k < result.poses.size(); ++k) {
-      before.push_back({static_cast<double>(k + 1), um * result.poses[k].difference[i]});
-      after.push_back({static_cast<double>(k + 1), um * result.poses[k].residual[i]});
-    }
-    const std::string stroke = std::string("stroke=\"") + colours[i] + "\"";
-    plot.curve(before, stroke + " stroke-width=\"1\" stroke-dasharray=\"4 3\"");
-    plot.curve(after, stroke + " stroke-width=\"1.6\"");
-  }
-  return report::document(
-      760, 450,
-      report::text(80, 24, report::escaped(title), "font-size=\"15\" font-weight=\"600\"") +
-          report::text(80, 44, "X red, Y green, Z blue; dashed: difference before, line: residual after") +
-          plot.svg());
-}
-
 bus::Json json_of(const calibration::KinematicsResult& r, const calibration::MeasuredMachine& machine,
                   const calibration::MeasurementInputs& in) {
   bus::Json out = {{"machine", machine.name},
@@ -168,50 +140,22 @@ bus::Json json_of(const calibration::CheckSummary& s) {
           {"root_mean_square_um", um * s.root_mean_square}};
 }
 
-// RTCP with the sphere before and after on the true machine.
-void check_rtcp(const KinematicsOptions& o, const TrueMachine& machine,
-                const calibration::MeasuredMachine& measured, const calibration::MeasurementInputs& in,
-                const calibration::KinematicsResult& result, bool json, bus::Json& out) {
-  const auto poses = calibration::random_check_poses(measured, in.axes, in.sphere, in.probe_length, o.check,
-                                                     o.seed.value_or(1));
-  const auto summary = [&](const calibration::ChainParameters& model) {
-    return calibration::summary_of(
-        calibration::sphere_displacements(*machine.report, model, in.sphere, in.probe_length, poses));
+void print_rtcp(const calibration::RtcpCheck& check) {
+  print("RTCP with the sphere over {} random poses, displacement from the initial pose:", check.poses);
+  for (const auto& [name, s] : {std::pair{"before", &check.before}, {"after", &check.after}})
+    print("{:<7} largest X {:.1f}, Y {:.1f}, Z {:.1f} um; root mean square {:.1f} um", name,
+          um * s->largest.x(), um * s->largest.y(), um * s->largest.z(), um * s->root_mean_square);
+}
+
+// Of the virtual probe and sphere, in mm.
+calibration::GaugeChanges changes_of(const KinematicsOptions& o) {
+  const auto in_mm = [](std::optional<double> value) {
+    if (value) *value /= um;
+    return value;
   };
-  const auto before = summary(result.before), after = summary(result.after);
-  out["rtcp_check"] = {{"poses", poses.size()}, {"before", json_of(before)}, {"after", json_of(after)}};
-  if (json) return;
-  print_line("RTCP with the sphere over %zu random poses, displacement from the initial pose:", poses.size());
-  for (const auto& [name, s] : {std::pair{"before", &before}, {"after", &after}})
-    print_line("%-7s largest X %.1f, Y %.1f, Z %.1f um; root mean square %.1f um", name, um * s->largest.x(),
-               um * s->largest.y(), um * s->largest.z(), um * s->root_mean_square);
-}
-
-// That of truth.yaml; without one, an exact probe as the inputs have it.
-truth::TouchProbeTruth true_probe(const KinematicsOptions& o, const truth::Truth& truth,
-                                  const calibration::MeasurementInputs& in) {
-  truth::TouchProbeTruth probe;
-  probe.length = in.probe_length, probe.ball_radius = in.ball_diameter / 2;
-  if (truth.probe) probe = *truth.probe;
-  if (o.repeatability) probe.repeatability = *o.repeatability / um;
-  if (o.pre_travel) probe.pre_travel = *o.pre_travel / um;
-  if (o.lobing) probe.lobing = *o.lobing / um;
-  if (o.seed) probe.seed = *o.seed;
-  return probe;
-}
-
-// Those of truth.yaml; without a sphere among them, one where the inputs expect it.
-std::vector<truth::Solid> true_solids(const KinematicsOptions& o, const truth::Truth& truth,
-                                      const calibration::MeasurementInputs& in) {
-  auto solids = truth.solids;
-  const auto first = std::find_if(solids.begin(), solids.end(), [](const auto& solid) {
-    return std::holds_alternative<truth::SphereGauge>(solid);
-  });
-  auto& sphere = std::get<truth::SphereGauge>(
-      first == solids.end() ? solids.emplace_back(truth::SphereGauge{in.sphere, in.sphere_diameter / 2})
-                            : *first);
-  if (!o.true_sphere.empty()) sphere.centre = vector_option("--true-sphere", o.true_sphere);
-  return solids;
+  calibration::GaugeChanges changes{in_mm(o.repeatability), in_mm(o.pre_travel), in_mm(o.lobing), o.seed, {}};
+  if (!o.true_sphere.empty()) changes.sphere = vector_option("--true-sphere", o.true_sphere);
+  return changes;
 }
 
 idl::measurement::MeasurementRequest measurement_request(const KinematicsOptions& o,
@@ -263,16 +207,15 @@ void propose_ranges(const calibration::MeasurementMoves& moves,
   if (const auto* fault = std::get_if<std::string>(&plan)) throw std::runtime_error(*fault);
   std::fputs("axes:\n", stdout);
   for (const auto& range : in.axes)
-    print_line("  %c: {start_deg: %.6g, end_deg: %.6g, points: %zu, other_deg: %.6g}", "ABCUVW"[range.angle],
-               range.start, range.end, range.points, range.other);
+    print("  {}: {{start_deg: {:.6g}, end_deg: {:.6g}, points: {}, other_deg: {:.6g}}}",
+          "ABCUVW"[range.angle], range.start, range.end, range.points, range.other);
 }
 
 int detached(const Common& common, std::uint64_t number) {
   if (common.json)
     std::cout << bus::Json{{"measurement", number}}.dump() << "\n";
   else
-    print_line("measurement %llu is under way: trunnion calibrate status, abort, confirm",
-               static_cast<unsigned long long>(number));
+    print("measurement {} is under way: trunnion calibrate status, abort, confirm", number);
   return 0;
 }
 
@@ -313,9 +256,11 @@ int kinematics(const KinematicsOptions& o, const Common& common) {
   } else if (o.touches.empty()) {
     const auto made = calibration::plan_measurement(in, measured);
     if (const auto* fault = std::get_if<std::string>(&made)) throw std::runtime_error(*fault);
-    touched = calibration::touch_virtually(
-        *machine.report, in, measured, std::get<calibration::MeasurementPlan>(made),
-        true_probe(o, machine.truth, in), true_solids(o, machine.truth, in));
+    const auto changes = changes_of(o);
+    touched = calibration::touch_virtually(*machine.report, in, measured,
+                                           std::get<calibration::MeasurementPlan>(made),
+                                           calibration::true_probe(machine.truth, in, changes),
+                                           calibration::true_solids(machine.truth, in, changes));
   } else {
     touched = calibration::parse_touches(machine::read_text(o.touches), o.touches, measured.model);
   }
@@ -332,11 +277,17 @@ int kinematics(const KinematicsOptions& o, const Common& common) {
                                  in, measured, result);
   if (!o.protocol.empty()) storage::replace_file(o.protocol, text);
   if (!o.plot.empty())
-    storage::replace_file(o.plot,
-                          residual_picture(result, measured.name + ": measurement of the kinematics"));
+    storage::replace_file(
+        o.plot, report::residual_picture(result, measured.name + ": measurement of the kinematics"));
   auto out = json_of(result, measured, in);
   if (!common.json) std::fputs(text.c_str(), stdout);
-  if (o.check > 0) check_rtcp(o, machine, measured, in, result, common.json, out);
+  if (o.check > 0) {
+    const auto check = calibration::check_rtcp(*machine.report, measured, in, result.before, result.after,
+                                               o.check, o.seed.value_or(1));
+    out["rtcp_check"] = {
+        {"poses", check.poses}, {"before", json_of(check.before)}, {"after", json_of(check.after)}};
+    if (!common.json) print_rtcp(check);
+  }
   std::fflush(stdout);
   if (in.reference == calibration::Reference::measure)
     storage::replace_file(o.reference, calibration::text_of({result.sphere, in.zero_offset}));

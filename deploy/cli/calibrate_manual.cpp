@@ -6,7 +6,6 @@
 
 #include "bus/json.hpp"
 #include "calibration/measurement_poses.hpp"
-#include "calibration/sphere_check.hpp"
 #include "calibration/virtual_dial.hpp"
 #include "calibration_result.hpp"
 #include "figures.hpp"
@@ -15,10 +14,9 @@
 namespace trunnion::cli {
 namespace {
 
+using calibration::ManualCheck;
 using calibration::ManualKind;
 using calibration::Vec3;
-
-constexpr int most_corrections = 3;
 
 struct ManualOptions {
   CalibrationTarget target;
@@ -28,14 +26,9 @@ struct ManualOptions {
   bool by_virtual = false;
 };
 
-struct ManualCheck {
-  std::vector<Vec3> displacements;
-  calibration::Acceptance acceptance;
-};
-
 void print_guide(ManualKind kind) {
   const auto& guide = calibration::guide_of(kind);
-  print_line("%s: %s", calibration::to_string(kind), guide.title.c_str());
+  print("{}: {}", calibration::to_string(kind), guide.title);
   std::cout << "Before:\n";
   for (const auto& check : guide.checks) std::cout << "  - " << check << "\n";
   std::cout << "Steps (readings in mm, in a file for --readings):\n";
@@ -47,16 +40,14 @@ void print_guide(ManualKind kind) {
   for (const auto& [name, about] : guide.values) std::cout << "  " << name << ": " << about << "\n";
 }
 
-void print_check(const ManualCheck& check, const std::vector<calibration::Angles>& poses,
-                 const calibration::ChainParameters& model, const char* when) {
-  print_line("RTCP check at nine poses, %s: displacement of the ball in the workpiece frame, um", when);
+void print_check(const ManualCheck& check, const std::vector<calibration::Angles>& poses, const char* when) {
+  print("RTCP check at nine poses, {}: displacement of the ball in the workpiece frame, um", when);
   for (std::size_t i = 0; i < poses.size(); ++i)
-    print_line("  %-14s %10.1f %10.1f %10.1f", calibration::pose_name(poses[i], model).c_str(),
-               um * check.displacements[i].x(), um * check.displacements[i].y(),
-               um * check.displacements[i].z());
+    print("  {:<14} {:>10.1f} {:>10.1f} {:>10.1f}", calibration::pose_name(poses[i], check.model),
+          um * check.displacements[i].x(), um * check.displacements[i].y(), um * check.displacements[i].z());
   for (const auto& line : check.acceptance.lines)
-    print_line("  %-36s %8.1f um, limit %.0f um%s", line.name.c_str(), um * line.value, um * line.limit,
-               line.value <= line.limit ? "" : "  EXCEEDED");
+    print("  {:<36} {:>8.1f} um, limit {:.0f} um{}", line.name, um * line.value, um * line.limit,
+          line.value <= line.limit ? "" : "  EXCEEDED");
 }
 
 bus::Json json_of(const ManualCheck& check) {
@@ -113,37 +104,34 @@ int manual(const ManualOptions& o, const Common& common) {
     out["readings"] = readings;
     out["formulas"] = json_of(model);
     if (!common.json)
-      for (const auto& [name, value] : readings) print_line("reading %-16s %14.4f", name.c_str(), value);
+      for (const auto& [name, value] : readings) print("reading {:<16} {:>14.4f}", name, value);
   }
   if (!o.displacements.empty()) {
     const auto displaced =
         calibration::parse_displacements(machine::read_text(o.displacements), o.displacements);
-    const ManualCheck check{displaced, calibration::acceptance_of(*kind, displaced)};
-    if (!common.json) print_check(check, poses, model, "as given");
+    const ManualCheck check{model, displaced, calibration::acceptance_of(*kind, displaced)};
+    if (!common.json) print_check(check, poses, "as given");
     out["checks"].push_back(json_of(check));
-    if (check.acceptance.accepted() && !common.json) print_line("accepted; no correction");
+    if (check.acceptance.accepted() && !common.json) print("accepted; no correction");
     if (!check.acceptance.accepted()) model = calibration::corrected(*kind, displaced, o.alpha, model);
   }
-  truth::Instrument dial({o.noise / um, o.resolution / um, o.seed + 1});
-  for (int round = 0; o.by_virtual; ++round) {
-    ManualCheck check{calibration::sphere_displacements(*machine.report, model, place, o.ball_length, poses),
-                      {}};
-    for (auto& d : check.displacements)
-      for (double& value : d) value = dial.read(value);
-    check.acceptance = calibration::acceptance_of(*kind, check.displacements);
-    accepted = check.acceptance.accepted();
-    if (!common.json)
-      print_check(check, poses, model, round == 0 ? "after the formulas" : "after a correction");
-    out["checks"].push_back(json_of(check));
-    if (accepted || round == most_corrections) break;
-    model = calibration::corrected(*kind, check.displacements, o.alpha, model);
+  if (o.by_virtual) {
+    const auto checks = calibration::check_and_correct(
+        *kind, *machine.report, model,
+        {place, o.ball_length, o.alpha, {o.noise / um, o.resolution / um, o.seed + 1}});
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+      if (!common.json) print_check(checks[i], poses, i == 0 ? "after the formulas" : "after a correction");
+      out["checks"].push_back(json_of(checks[i]));
+    }
+    accepted = checks.back().acceptance.accepted();
+    model = checks.back().model;
   }
   out["after"] = json_of(model);
   std::fflush(stdout);
   if (common.json) std::cout << bus::text_of(out) << "\n";
   if (!accepted)
-    throw std::runtime_error("the check exceeds its limits after " + std::to_string(most_corrections) +
-                             " corrections; nothing written");
+    throw std::runtime_error("the check exceeds its limits after " +
+                             std::to_string(calibration::most_corrections) + " corrections; nothing written");
   return write_change(o.target, common, measured.model, model);
 }
 

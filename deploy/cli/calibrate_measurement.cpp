@@ -22,29 +22,24 @@ using idl::measurement::Phase;
 
 void print_state(const MeasurementState& state, const MeasurementResult* result) {
   if (state.phase == Phase::NOTHING) {
-    print_line("no measurement");
+    print("no measurement");
     return;
   }
-  print_line("measurement %llu of channel %u, %s by %s: %s, %u of %u poses are complete, %.0f %%",
-             static_cast<unsigned long long>(state.measurement), state.channel, state.time.c_str(),
-             state.who.empty() ? "-" : state.who.c_str(), bus::to_string(state.phase), state.complete,
-             state.poses, 100 * state.progress);
-  if (!state.detail.empty()) print_line("%s", state.detail.c_str());
-  if (!state.error.empty()) print_line("%s", state.error.c_str());
-  if (!state.tolerance_alarm.empty()) print_line("%s", state.tolerance_alarm.c_str());
+  print("measurement {} of channel {}, {} by {}: {}, {} of {} poses are complete, {:.0f} %",
+        state.measurement, state.channel, state.time, state.who.empty() ? "-" : state.who,
+        bus::to_string(state.phase), state.complete, state.poses, 100 * state.progress);
+  if (!state.detail.empty()) print("{}", state.detail);
+  if (!state.error.empty()) print("{}", state.error);
+  if (!state.tolerance_alarm.empty()) print("{}", state.tolerance_alarm);
   if (result != nullptr && result->valid) {
     std::fputs(result->protocol.c_str(), stdout);
     for (const auto& change : result->changes)
-      print_line("%s: %.6f -> %.6f", machine::number_text(change.number).c_str(), change.before,
-                 change.after);
+      print("{}: {:.6f} -> {:.6f}", machine::number_text(change.number), change.before, change.after);
   }
-  if (state.may_continue)
-    print_line("trunnion calibrate continue measures the other poses, discard gives it up");
-  if (state.may_confirm)
-    print_line("trunnion calibrate confirm writes the parameters, discard gives them up");
+  if (state.may_continue) print("trunnion calibrate continue measures the other poses, discard gives it up");
+  if (state.may_confirm) print("trunnion calibrate confirm writes the parameters, discard gives them up");
   if (state.phase == Phase::FINISHED)
-    print_line("%s",
-               state.written ? "written; active after a reset of the channel" : "nothing was to be written");
+    print("{}", state.written ? "written; active after a reset of the channel" : "nothing was to be written");
 }
 
 int status(const Common& common) {

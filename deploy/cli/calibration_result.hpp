@@ -43,13 +43,6 @@ int write_change(const CalibrationTarget& target, const Common& common,
                  const calibration::ChainParameters& before, const calibration::ChainParameters& after,
                  const ChangeWriter& writer = {});
 
-void print_line(const char* format, auto... values) {
-  char line[400];
-  std::snprintf(line, sizeof line, format, values...);
-  std::fputs(line, stdout);
-  std::fputc('\n', stdout);
-}
-
 void add_calibrate_kinematics(CLI::App& calibrate, Common& common);
 void add_calibrate_manual(CLI::App& calibrate, Common& common);
 void add_calibrate_measurement(CLI::App& calibrate, Common& common);

@@ -2,9 +2,7 @@
 // channel: an operator's command to a channel, and its status. The words of the commands are the table's
 // (idl/operator_commands.yaml).
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -17,10 +15,11 @@
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "cluster/operating_station.hpp"
+#include "cluster/stored_program.hpp"
 #include "commands.hpp"
 #include "commands/channel_request.hpp"
+#include "interrupt_watch.hpp"
 #include "new_alarms.hpp"
-#include "stored_program.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -49,7 +48,7 @@ idl::channel::ChannelRequest request_of(cluster::Client& client, const ChannelOp
   auto request = commands::request_of(*command, options.arguments, letters);
   request.channel = options.channel;
   if (request.command == CommandKind::SELECT_PROGRAM)
-    if (const auto stored = find_program(client.newest(topics::program_list), request.program))
+    if (const auto stored = cluster::find_program(client.newest(topics::program_list), request.program))
       request.program = stored->name;
   return request;
 }
@@ -73,15 +72,12 @@ std::string await_line(cluster::Client& client, std::uint16_t channel, NewAlarms
   throw std::runtime_error("the line was not found within 60 s");
 }
 
-std::atomic<bool> released{false};
-
 // A jog without an increment lasts as long as this command: until it is interrupted, or the channel ends it.
 void renew_until_released(cluster::Client& client, const idl::channel::ChannelRequest& jog) {
-  std::signal(SIGINT, [](int) { released = true; });
-  std::signal(SIGTERM, [](int) { released = true; });
+  const InterruptWatch interrupts;
   std::fprintf(stderr, "Jogging until Ctrl-C, jog-stop or the end of travel\n");
   bool moving = true;
-  while (moving && !released) {
+  while (moving && !InterruptWatch::requested()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     try {
       client.channel({.channel = jog.channel, .command = CommandKind::JOG_RENEW, .press = jog.press});

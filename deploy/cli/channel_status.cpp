@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "channel_status.hpp"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <iostream>
@@ -18,6 +18,7 @@
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "figures.hpp"
+#include "interrupt_watch.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
 #include "standard_output.hpp"
@@ -109,24 +110,25 @@ std::vector<std::string> lines_of(const Status& status) {
   constexpr double percent = 100;
   const auto& state = status.state;
   std::vector<std::string> lines;
-  lines.push_back(text("channel %u %s: %s, %s", unsigned{state.channel}, state.name.c_str(),
-                       bus::to_string(state.mode), bus::to_string(state.state)));
+  lines.push_back(fmt::format("channel {} {}: {}, {}", unsigned{state.channel}, state.name,
+                              bus::to_string(state.mode), bus::to_string(state.state)));
   if (!status.connected)
     lines.emplace_back("NO CONNECTION: these are the last values; see `trunnion status`");
   if (!state.detail.empty()) lines.push_back(state.detail);
-  lines.push_back(text("program  %s, line %u of %u", state.program.empty() ? "none" : state.program.c_str(),
-                       state.line, state.lines_total));
+  lines.push_back(fmt::format("program  {}, line {} of {}", state.program.empty() ? "none" : state.program,
+                              state.line, state.lines_total));
   for (std::size_t i = 0; i < axis_count(status); ++i)
-    lines.push_back(text("%c  machine %12.4f  workpiece %12.4f  to go %12.4f %s", state.letters[i],
-                         state.machine[i], state.workpiece[i], state.distance_to_go[i],
-                         status.units[i].c_str()));
-  lines.push_back(text("feed     %.1f mm/min, F %.1f, override %.0f %%, rapid %.0f %%", state.feed,
-                       state.programmed_feed, percent * state.feed_override, percent * state.rapid_override));
-  lines.push_back(text("spindle  S %.0f 1/min, override %.0f %%", state.spindle_programmed,
-                       percent * state.spindle_override));
+    lines.push_back(fmt::format("{}  machine {:>12.4f}  workpiece {:>12.4f}  to go {:>12.4f} {}",
+                                state.letters[i], state.machine[i], state.workpiece[i],
+                                state.distance_to_go[i], status.units[i]));
+  lines.push_back(fmt::format("feed     {:.1f} mm/min, F {:.1f}, override {:.0f} %, rapid {:.0f} %",
+                              state.feed, state.programmed_feed, percent * state.feed_override,
+                              percent * state.rapid_override));
+  lines.push_back(fmt::format("spindle  S {:.0f} 1/min, override {:.0f} %", state.spindle_programmed,
+                              percent * state.spindle_override));
   lines.push_back(
-      text("tool     T%u, H%u, length %.4f mm", state.tool, state.length_offset, state.tool_length));
-  lines.push_back(text("alarms   %zu", status.alarms));
+      fmt::format("tool     T{}, H{}, length {:.4f} mm", state.tool, state.length_offset, state.tool_length));
+  lines.push_back(fmt::format("alarms   {}", status.alarms));
   return lines;
 }
 
@@ -140,14 +142,11 @@ std::size_t show_in_place(const Status& status, std::size_t shown) {
   return lines.size();
 }
 
-std::atomic<bool> watch_interrupted{false};
-
 int watch_status(StatusReader& reader, bool terminal) {
-  std::signal(SIGINT, [](int) { watch_interrupted = true; });
-  std::signal(SIGTERM, [](int) { watch_interrupted = true; });
+  const InterruptWatch interrupts;
   std::size_t shown = 0;
   bus::Json last;
-  while (!watch_interrupted) {
+  while (!InterruptWatch::requested()) {
     const auto status = reader.read();
     if (terminal) {
       shown = show_in_place(status, shown);

@@ -85,10 +85,7 @@ int run_check(const CheckOptions& options) {
     channel_setup::ChannelSetup machine(tables);
     machine.resolve = resolve;
     if (rows) machine.set_tools(tool_table(*rows));
-    check_options.travel_error = [&machine](const auto& from, const auto& motion) {
-      return machine.travel_error(from, motion);
-    };
-    const auto guard = load_guard(machine, directory, tables.parameters);
+    const auto guard = collision_guard::load_guard(machine, directory, tables.parameters, 0);
     check_options.guard = guard.get();
     good =
         analysis::check_program(text, machine, machine.reference_position(), check_options, name, std::cout);

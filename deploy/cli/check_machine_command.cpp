@@ -7,7 +7,7 @@
 #include "bus/json.hpp"
 #include "commands.hpp"
 #include "machine_check/machine_check.hpp"
-#include "machine_settings.hpp"
+#include "machine_directory.hpp"
 
 namespace trunnion::cli {
 namespace {

@@ -2,31 +2,31 @@
 // measure circle: the circular test of ISO 230-4 on a cluster, or of a recording
 #include "circle_command.hpp"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
-#include "channel_motion.hpp"
 #include "circle_report.hpp"
-#include "circular_tests/turns.hpp"
 #include "figures.hpp"
-#include "geometry/angle.hpp"
-#include "machine/kinematics.hpp"
+#include "identification/circle_test.hpp"
+#include "interrupt_watch.hpp"
+#include "machine_tests/sampled_motion.hpp"
+#include "report/captured_motion.hpp"
+#include "report/truth_pictures.hpp"
 #include "storage/file.hpp"
-#include "truth/measurement.hpp"
-#include "truth_picture.hpp"
+#include "true_machine.hpp"
 
 namespace trunnion::cli {
 namespace {
 
-using circular_tests::PlanePoint;
 using circular_tests::ProgrammedCircle;
+using servo_analysis::ChannelMotion;
 using truth::Vec3;
 
-constexpr std::uint16_t decimation = 8;           // one sample in a cycle of 1 ms
-constexpr double found_within = 1e-4;             // mm: of a recording, the path from its circle
-constexpr double circle_positioning_feed = 6000;  // mm/min
+constexpr double found_within = 1e-4;  // mm: of a recording, the path from its circle
 
 struct CircleOptions {
   std::string machine, plane = "XY", source = "true", recording, plot, output, at;
@@ -34,219 +34,96 @@ struct CircleOptions {
   std::uint16_t channel = 0;
 };
 
-struct CirclePlane {
-  std::size_t first = 0, second = 1;
-};
-
-CirclePlane plane_of(const std::string& name) {
-  return {static_cast<std::size_t>(name[0] - 'X'), static_cast<std::size_t>(name[1] - 'X')};
-}
-
-// The circle's centre in machine coordinates: as given, or where the axes stand.
-Vec3 centre_of(const CircleOptions& o, const ServoSession& session) {
-  Vec3 centre = Vec3::Zero();
-  if (!o.at.empty()) return coordinates("--at", o.at);
-  for (const auto& axis : session.axes())
-    if (axis.letter >= 'X' && axis.letter <= 'Z') centre[axis.letter - 'X'] = axis.place;
-  return centre;
-}
-
-void check_circle(const CircleOptions& o, const ServoSession& session, const Vec3& centre) {
-  for (int i = 0; i < 3; ++i) {
-    const auto& axis = session.axis(std::string(1, static_cast<char>('X' + i)));
-    const bool moves = o.plane.find(axis.letter) != std::string::npos;
-    const double reach = moves ? o.radius : 0;
-    if (centre[i] - reach < axis.low || centre[i] + reach > axis.high)
-      throw std::runtime_error(
-          text("axis %c: the circle goes from %.3f to %.3f mm, its travel is %.3f .. "
-               "%.3f: choose another --at or --radius",
-               axis.letter, centre[i] - reach, centre[i] + reach, axis.low, axis.high));
-    if (moves && o.feed > axis.highest_feed)
-      throw std::runtime_error(
-          text("--feed %g: axis %c moves with up to %g mm/min", o.feed, axis.letter, axis.highest_feed));
-  }
-}
-
-// Radially to the circle, a turn and the overruns at both ends, back to the centre; both senses.
-std::string circle_program(const CircleOptions& o, const ServoSession& session, const Vec3& centre) {
-  const auto plane = plane_of(o.plane);
-  const char first = o.plane[0], second = o.plane[1];
-  const auto word = [](char letter) { return static_cast<char>('I' + (letter - 'X')); };
-  const auto point = [&](double angle) {
-    const auto [s, c] = geometry::sine_cosine(angle);
-    return PlanePoint{o.radius * c, o.radius * s};
-  };
-  const double x = centre[static_cast<Eigen::Index>(plane.first)],
-               y = centre[static_cast<Eigen::Index>(plane.second)];
-  const auto to_centre = text("G53 G1 %c%.6f %c%.6f F%g\n", first, x, second, y, circle_positioning_feed);
-  std::string program = o.plane == "XY" ? "G17" : o.plane == "XZ" ? "G18" : "G19";
-  program += " G90 G94\n";
-  program += text("G53 G1 X%.6f Y%.6f Z%.6f F%g\n", centre[0], centre[1], centre[2], circle_positioning_feed);
-  for (const int sense : {1, -1}) {
-    const double from = o.start - sense * o.overrun, to = o.start + sense * o.overrun;
-    const auto begin = point(from), end = point(to);
-    // G18 has its plane from Z to X, which is the other sense.
-    const char* arc = (sense > 0) == (o.plane != "XZ") ? "G3" : "G2";
-    program += text("G53 G1 %c%.6f %c%.6f F%.3f\n", first, x + begin.first, second, y + begin.second, o.feed);
-    const auto to_middle = text("%c%.6f %c%.6f", word(first), -begin.first, word(second), -begin.second);
-    program += text("%s %s F%.3f\n", arc, to_middle.c_str(), o.feed);
-    if (o.overrun > 0)
-      program += text("G91 %s %c%.6f %c%.6f %s\nG90\n", arc, first, end.first - begin.first, second,
-                      end.second - begin.second, to_middle.c_str());
-    program += to_centre;
-  }
-  for (const auto& axis : session.axes())
-    if (axis.letter >= 'X' && axis.letter <= 'Z')
-      program += text("G53 G1 %c%.6f F%g\n", axis.letter, axis.place, circle_positioning_feed);
-  return program + "G17\nM30\n";
-}
-
-std::vector<PlanePoint> commanded_points(const ChannelMotion& motion, const CirclePlane& plane) {
-  std::vector<PlanePoint> points;
-  points.reserve(motion.count);
-  for (std::size_t i = 0; i < motion.count; ++i)
-    points.push_back({motion.commanded(plane.first, i), motion.commanded(plane.second, i)});
-  return points;
-}
-
-std::vector<PlanePoint> encoder_points(const ChannelMotion& motion, const CirclePlane& plane) {
-  std::vector<PlanePoint> points;
-  points.reserve(motion.count);
-  for (std::size_t i = 0; i < motion.count; ++i)
-    points.push_back({motion.feedback(plane.first, i), motion.feedback(plane.second, i)});
-  return points;
-}
-
-// The true tip as positions of X, Y and Z of a machine without errors; the ball of the table is set where the
-// tip truly is at the centre.
-std::vector<PlanePoint> true_points(const ChannelMotion& motion, const CirclePlane& plane,
-                                    const ProgrammedCircle& circle, const TrueMachine& machine) {
-  const auto& chain = machine.report->model();
-  const double length = machine.report->tool_length;
-  truth::MachinePose middle;
-  for (std::size_t axis = 0; axis < truth::axis_count; ++axis)
-    middle.positions[axis] = motion.commanded(axis, 0);
-  middle.positions[plane.first] = circle.centre.first;
-  middle.positions[plane.second] = circle.centre.second;
-  middle.tool_length = length;
-  middle.temperatures = machine.report->temperatures;
-  const auto angles = geometry::angles_of(middle.positions.data());
-  const auto as_axes = [&](const Vec3& tip) -> PlanePoint {
-    const Vec3 at = chain.machine_from_tip(tip, angles, length);
-    return {at[static_cast<Eigen::Index>(plane.first)], at[static_cast<Eigen::Index>(plane.second)]};
-  };
-  const auto ball = as_axes(machine.report->geometry().pose(middle).tip);
-  std::vector<PlanePoint> points;
-  points.reserve(motion.count);
-  for (const auto& tip : true_tips(motion, *machine.report)) {
-    const auto at = as_axes(tip);
-    points.push_back(
-        {at.first - ball.first + circle.centre.first, at.second - ball.second + circle.centre.second});
-  }
-  return points;
-}
-
-// The speed along the commanded circle that was reached, mm/min.
-double feed_reached(const std::vector<PlanePoint>& commanded, const circular_tests::Turn& turn,
-                    double interval) {
-  double way = 0;
-  for (std::size_t i = turn.begin; i + 1 < turn.end; ++i)
-    way += std::hypot(commanded[i + 1].first - commanded[i].first,
-                      commanded[i + 1].second - commanded[i].second);
-  return way / (static_cast<double>(turn.end - turn.begin - 1) * interval) * 60;
-}
-
-void write_readings(const std::string& path, const std::vector<circular_tests::RadialReading>& ccw,
-                    const std::vector<circular_tests::RadialReading>& cw) {
+void write_readings(const std::string& path, const std::vector<geometry::RadialReading>& ccw,
+                    const std::vector<geometry::RadialReading>& cw) {
   std::string lines = "sense,angle_deg,deviation_um\n";
   for (const auto* readings : {&ccw, &cw})
     for (const auto& r : *readings)
-      lines += text("%s,%.6f,%.6f\n", readings == &ccw ? "ccw" : "cw", r.angle, r.deviation * um);
+      lines += fmt::format("{},{:.6f},{:.6f}\n", readings == &ccw ? "ccw" : "cw", r.angle, r.deviation * um);
   storage::replace_file(path, lines);
 }
 
-int measure_circle(const CircleOptions& o, const Common& common) {
-  const auto plane = plane_of(o.plane);
-  const bool from_truth = o.source == "true";
+// What was run, and on which machine.
+struct CircleRun {
   ChannelMotion motion;
   ProgrammedCircle circle;
-  std::string name = o.machine, directory = o.machine;
+  std::string name, directory;
   machine::Parameters parameters;
-  if (!o.recording.empty()) {
-    if (from_truth && o.machine.empty())
-      throw std::runtime_error(
-          "--source true reads truth.yaml: name the machine, or choose --source encoder");
-    motion = motion_of_recording(o.recording, o.channel, parameters);
-    try {
-      circle = circular_tests::find_circle(commanded_points(motion, plane), found_within);
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error(o.recording + ": plane " + o.plane + ": " + error.what());
-    }
-    if (name.empty()) name = o.recording;
-  } else {
-    ServoSession session(o.machine, common.domain, o.channel);
-    const auto centre = centre_of(o, session);
-    check_circle(o, session, centre);
-    motion = run_sampled(session, circle_program(o, session, centre), "XYZ", decimation);
-    circle = {
-        {centre[static_cast<Eigen::Index>(plane.first)], centre[static_cast<Eigen::Index>(plane.second)]},
-        o.radius};
-    name = session.machine(), directory = session.machine_directory();
-    parameters = session.parameters();
+};
+
+CircleRun recorded_run(const CircleOptions& o) {
+  if (o.source == "true" && o.machine.empty())
+    throw std::runtime_error("--source true reads truth.yaml: name the machine, or choose --source encoder");
+  CircleRun run;
+  run.name = o.machine.empty() ? o.recording : o.machine;
+  run.directory = o.machine;
+  run.motion = report::motion_of_recording(o.recording, o.channel, run.parameters);
+  try {
+    const auto commanded = identification::commanded_points(run.motion, circular_tests::plane_of(o.plane));
+    run.circle = circular_tests::find_circle(commanded, found_within);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(o.recording + ": plane " + o.plane + ": " + error.what());
   }
-  const auto commanded = commanded_points(motion, plane);
-  const auto turns = circular_tests::turns_on(commanded, circle);
-  if (turns.empty()) throw std::runtime_error("the axes have not made a whole turn");
-  truth::BallbarMeasurement measured;
-  std::vector<PlanePoint> points;
-  truth::InstrumentTruth instrument_truth;
-  if (from_truth) {
-    auto machine = load_true_machine(directory, o.channel, {});
-    machine.report = std::make_unique<truth::PoseReport>(
-        machine.report->geometry(), machine::make_chain(parameters, o.channel), machine.outline);
-    machine.report->tool_length = o.tool_length;
-    points = true_points(motion, plane, circle, machine);
-    instrument_truth = instrument(machine, "ballbar");
-  } else {
-    points = encoder_points(motion, plane);
-  }
-  truth::Instrument bar(instrument_truth);
-  double feed = 0;
-  for (const auto& turn : turns) {
-    auto& readings = turn.sense > 0 ? measured.ccw : measured.cw;
-    if (!readings.empty()) continue;
-    readings = circular_tests::readings_of(points, turn, circle);
-    for (auto& reading : readings) reading.deviation = bar.read(reading.deviation);
-    feed = std::max(feed, feed_reached(commanded, turn, motion.interval));
-  }
-  if (measured.ccw.empty() || measured.cw.empty())
-    throw std::runtime_error(std::string("the circle was run in one sense only (") +
-                             (measured.cw.empty() ? "counter-" : "") +
-                             "clockwise): a circular test needs both");
-  const auto report = circle_report(o.plane, circle.radius, measured.ccw, measured.cw);
-  const double lag = feed > 0 ? report.causes.lag_mismatch / (feed / 60) * 1e3 : 0;
-  const auto& turn = turns.front();
-  if (!o.output.empty()) write_readings(o.output, measured.ccw, measured.cw);
+  return run;
+}
+
+CircleRun run_on_machine(const CircleOptions& o, const Common& common) {
+  const InterruptWatch watch(true);
+  machine_tests::ServoSession session(o.machine, common.domain, o.channel, &InterruptWatch::requested);
+  const Vec3 centre = o.at.empty() ? machine_tests::linear_place(session) : coordinates("--at", o.at);
+  const auto plane = circular_tests::plane_of(o.plane);
+  CircleRun run;
+  run.motion = machine_tests::run_circle(session, {o.plane, centre, o.radius, o.feed, o.start, o.overrun});
+  run.circle = {
+      {centre[static_cast<Eigen::Index>(plane.first)], centre[static_cast<Eigen::Index>(plane.second)]},
+      o.radius};
+  run.name = session.machine(), run.directory = session.machine_directory();
+  run.parameters = session.parameters();
+  return run;
+}
+
+identification::CircleTest evaluated(const CircleOptions& o, const CircleRun& run) {
+  const auto plane = circular_tests::plane_of(o.plane);
+  if (o.source != "true")
+    return identification::evaluate_circle(run.motion, o.plane, run.circle,
+                                           identification::encoder_points(run.motion, plane), {});
+  auto machine = load_true_machine(run.directory, o.channel, {});
+  take_model(machine, run.parameters, o.channel);
+  machine.report->tool_length = o.tool_length;
+  return identification::evaluate_circle(
+      run.motion, o.plane, run.circle,
+      identification::true_points(run.motion, plane, run.circle, *machine.report),
+      identification::instrument(machine, "ballbar"));
+}
+
+int measure_circle(const CircleOptions& o, const Common& common) {
+  const auto run = o.recording.empty() ? run_on_machine(o, common) : recorded_run(o);
+  const auto test = evaluated(o, run);
+  const auto& circle = run.circle;
+  if (!o.output.empty()) write_readings(o.output, test.readings.ccw, test.readings.cw);
   if (!o.plot.empty())
-    storage::replace_file(o.plot, ballbar_picture(measured, text("%s, plane %s, R%g F%.0f, %s", name.c_str(),
-                                                                 o.plane.c_str(), circle.radius, feed,
-                                                                 from_truth ? "true machine" : "encoders")));
+    storage::replace_file(
+        o.plot,
+        report::ballbar_picture(
+            test.readings, fmt::format("{}, plane {}, R{:g} F{:.0f}, {}", run.name, o.plane, circle.radius,
+                                       test.feed, o.source == "true" ? "true machine" : "encoders")));
   if (common.json) {
-    auto out = report_json(report);
-    out["machine"] = name, out["source"] = o.source;
+    auto out = report_json(test.report);
+    out["machine"] = run.name, out["source"] = o.source;
     out["centre_mm"] = {circle.centre.first, circle.centre.second};
-    out["feed_mm_per_min"] = feed, out["servo_mismatch_ms"] = lag;
-    out["start_deg"] = turn.start, out["overrun_deg"] = turn.overrun, out["interval_s"] = motion.interval;
-    out["readings"] = {measured.ccw.size(), measured.cw.size()};
+    out["feed_mm_per_min"] = test.feed, out["servo_mismatch_ms"] = test.servo_mismatch;
+    out["start_deg"] = test.start, out["overrun_deg"] = test.overrun;
+    out["interval_s"] = run.motion.interval;
+    out["readings"] = {test.readings.ccw.size(), test.readings.cw.size()};
     std::cout << bus::text_of(out) << "\n";
     return 0;
   }
   print_figure("radius", circle.radius, "mm");
-  print_figure("feed reached", feed, "mm/min");
-  print_figure("start angle", turn.start, "deg");
-  print_figure("readings in a second", 1 / motion.interval, "");
-  print_report(report);
-  print_figure("servo mismatch", lag, "ms");
+  print_figure("feed reached", test.feed, "mm/min");
+  print_figure("start angle", test.start, "deg");
+  print_figure("readings in a second", 1 / run.motion.interval, "");
+  print_report(test.report);
+  print_figure("servo mismatch", test.servo_mismatch, "ms");
   for (const auto& file : {o.output, o.plot})
     if (!file.empty()) std::cout << file << "\n";
   return 0;

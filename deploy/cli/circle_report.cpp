@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "circle_report.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 
 #include "figures.hpp"
@@ -16,24 +17,8 @@ bus::Json scaled(const std::array<double, 4>& values) {
 
 }  // namespace
 
-CircleReport circle_report(const std::string& plane, double radius, circular_tests::Readings ccw,
-                           circular_tests::Readings cw) {
-  CircleReport r{plane,
-                 radius,
-                 circular_tests::circular_figures(ccw, cw, radius),
-                 circular_tests::ballbar_causes(ccw, cw, radius),
-                 {}};
-  r.shares = circular_tests::cause_shares(r.causes, radius);
-  for (auto& share : r.shares)
-    if (share.name.ends_with('1') || share.name.ends_with('2'))
-      share.name.back() = plane[share.name.back() == '1' ? 0 : 1];
-  return r;
-}
-
-void print_figure(const std::string& name, double value, const char* unit) {
-  char line[160];
-  std::snprintf(line, sizeof line, "%-34s %10.3f %s", name.c_str(), value, unit);
-  std::cout << line << "\n";
+void print_figure(const std::string& name, double value, const std::string& unit) {
+  std::cout << fmt::format("{:<34} {:>10.3f} {}\n", name, value, unit);
 }
 
 void print_report(const CircleReport& r) {
@@ -44,9 +29,8 @@ void print_report(const CircleReport& r) {
   print_figure("circular deviation G, cw", f.deviation_cw * um, "um");
   print_figure("bidirectional G(b)", f.bidirectional * um, "um");
   print_figure("G(b) about the least-squares circle", f.squares_both * um, "um");
-  char where[40];
-  std::snprintf(where, sizeof where, "um at %.1f deg", f.hysteresis_angle);
-  print_figure("circular hysteresis H", f.hysteresis * um, where);
+  print_figure("circular hysteresis H", f.hysteresis * um,
+               fmt::format("um at {:.1f} deg", f.hysteresis_angle));
   print_figure("radial deviation F max, ccw", f.radial_largest_ccw * um, "um");
   print_figure("radial deviation F min, ccw", f.radial_least_ccw * um, "um");
   print_figure("radial deviation F max, cw", f.radial_largest_cw * um, "um");
@@ -56,21 +40,18 @@ void print_report(const CircleReport& r) {
   print_figure("centre " + second, c.centre_second * um, "um");
   print_figure("squareness", c.squareness * urad, "urad (above zero: more than 90 degrees)");
   print_figure("scale " + first + " less " + second, c.scale_mismatch * urad, "um/m");
-  print_figure("servo mismatch", c.lag_mismatch * um, ("um (above zero: " + first + " lags more)").c_str());
+  print_figure("servo mismatch", c.lag_mismatch * um, "um (above zero: " + first + " lags more)");
   print_figure("lost motion " + first, c.reversal_first * um, "um");
   print_figure("lost motion " + second, c.reversal_second * um, "um");
   for (std::size_t q = 0; q < 4; ++q) {
-    char name[60];
-    std::snprintf(name, sizeof name, "reversal spike %c at %zu deg, ccw", r.plane[q % 2], 90 * q);
-    print_figure(name, c.spike_ccw[q] * um, "um");
-    std::snprintf(name, sizeof name, "reversal spike %c at %zu deg, cw", r.plane[q % 2], 90 * q);
-    print_figure(name, c.spike_cw[q] * um, "um");
+    const auto name = fmt::format("reversal spike {} at {} deg, ", r.plane[q % 2], 90 * q);
+    print_figure(name + "ccw", c.spike_ccw[q] * um, "um");
+    print_figure(name + "cw", c.spike_cw[q] * um, "um");
   }
-  for (const auto& share : r.shares) {
-    char text[60];
-    std::snprintf(text, sizeof text, "um, %.0f %% of the sum", share.share * 100);
-    if (share.span > 0) print_figure("alone: " + share.name, share.span * um, text);
-  }
+  for (const auto& share : r.shares)
+    if (share.span > 0)
+      print_figure("alone: " + share.name, share.span * um,
+                   fmt::format("um, {:.0f} % of the sum", share.share * 100));
 }
 
 bus::Json readings_json(circular_tests::Readings readings) {

@@ -170,8 +170,8 @@ int show_status(const Common& common) {
                                                                     : "NO HEARTBEAT";
     row["detail"] = s != state.end() ? s->second.detail : "";
     row["uptime_seconds"] = s != state.end() ? s->second.uptime : 0;
-    row["frames_per_second"] = s != state.end() ? s->second.frames_per_second : 0;
-    row["frames_lost"] = s != state.end() ? s->second.frames_lost : 0;
+    row["messages_per_second"] = s != state.end() ? s->second.messages_per_second : 0;
+    row["cycles_lost"] = s != state.end() ? s->second.cycles_lost : 0;
     row["in_step"] = s != state.end() && s->second.pid == service.pid && s->second.in_step;
     row["replica_state"] = replica_state(service, row["in_step"].get<bool>(), alarm);
     const auto contract = bus::contract_of(service.service);
@@ -198,12 +198,12 @@ int show_status(const Common& common) {
     if (cluster.open)
       std::printf("open: no security, every computer in the network of the hosts can move this machine\n\n");
     std::printf("%-14s %-7s %-11s %8s %-14s %-8s %10s %10s %8s  %s\n", "service", "replica", "vendor", "pid",
-                "state", "in step", "uptime s", "frames/s", "restarts", "");
+                "state", "in step", "uptime s", "messages/s", "restarts", "");
     for (const auto& row : services)
       std::printf("%-14s %-7d %-11s %8d %-14s %-8s %10.1f %10.1f %8d  %s\n", name_in_table(row).c_str(),
                   row["replica"].get<int>(), row["vendor"].get<std::string>().c_str(), row["pid"].get<int>(),
                   row["state"].get<std::string>().c_str(), row["replica_state"].get<std::string>().c_str(),
-                  row["uptime_seconds"].get<double>(), row["frames_per_second"].get<double>(),
+                  row["uptime_seconds"].get<double>(), row["messages_per_second"].get<double>(),
                   row["restarts"].get<int>(), remark(row).c_str());
     if (!active.empty()) std::printf("\nalarms\n");
     for (const auto& a : active)

@@ -13,13 +13,13 @@
 #include "analysis/file_source.hpp"
 #include "analysis/program_folders.hpp"
 #include "analysis/program_run.hpp"
-#include "bodies_picture.hpp"
 #include "bus/json.hpp"
 #include "canonical/axes.hpp"
 #include "collision_machine.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
-#include "machine_settings.hpp"
+#include "machine_directory.hpp"
+#include "report/bodies_picture.hpp"
 #include "storage/file.hpp"
 
 namespace trunnion::cli {
@@ -151,8 +151,8 @@ int run_collision(const CollisionOptions& o, const Common& common) {
   if (!o.picture.empty()) {
     const auto pose = pose_of(o.pose, machine.outline.axes);
     storage::replace_file(
-        o.picture,
-        bodies_picture(model, pose, machine.name + ", " + collision::text_of(pose, machine.outline.axes)));
+        o.picture, report::bodies_picture(
+                       model, pose, machine.name + ", " + collision::text_of(pose, machine.outline.axes)));
     if (o.program.empty()) return 0;
   }
   channel_setup::ChannelSetup setup(tables);

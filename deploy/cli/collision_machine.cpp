@@ -3,23 +3,17 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <stdexcept>
 
 #include "machine/chain_parameters.hpp"
-#include "machine/yaml.hpp"
-#include "machine_settings.hpp"
+#include "machine_directory.hpp"
 
 namespace trunnion::cli {
 
 collision::MachineBodies load_bodies(const TrueMachine& machine, const std::string& name,
                                      std::uint16_t channel) {
-  const auto chain = machine::chain_parameters(machine.model, channel);
-  const auto file = machine_directory(name) + "/bodies.yaml";
-  const bool described = std::filesystem::exists(file);
-  auto bodies = collision::parse_bodies(described ? machine::read_text(file) : "", file, chain,
-                                        machine.truth.geometry.structure);
-  if (!described) bodies.set = collision::derived_bodies(bodies.links);
+  auto bodies =
+      collision::load_bodies(machine_directory(name), machine::chain_parameters(machine.model, channel),
+                             machine.truth.geometry.structure);
   collision::add_solids(bodies.links, machine.truth.solids, bodies.set);
   return bodies;
 }
@@ -27,17 +21,6 @@ collision::MachineBodies load_bodies(const TrueMachine& machine, const std::stri
 void put_tool(collision::MachineBodies& bodies, const CylinderTool& tool) {
   std::erase_if(bodies.set.bodies, [](const auto& body) { return body.tool; });
   bodies.set.bodies.push_back(collision::tool_body(bodies.links, tool.length, tool.radius));
-}
-
-std::unique_ptr<collision_guard::CollisionGuard> load_guard(const channel_setup::ChannelSetup& machine,
-                                                            const std::string& directory,
-                                                            const machine::Parameters& parameters) {
-  const auto mode = machine::load_collision_mode(directory);
-  if (mode == machine::CollisionMode::off) return nullptr;
-  auto guard = std::make_unique<collision_guard::CollisionGuard>(
-      machine, mode, collision_guard::load_bodies_text(directory));
-  guard->configure(parameters, 0);
-  return guard;
 }
 
 void print_warnings(collision_guard::CollisionGuard* guard, const std::string& program) {

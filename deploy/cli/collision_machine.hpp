@@ -25,11 +25,6 @@ collision::MachineBodies load_bodies(const TrueMachine& machine, const std::stri
 /// In the place of the bodies on the tool.
 void put_tool(collision::MachineBodies& bodies, const CylinderTool& tool);
 
-/// The check that machine.yaml in `directory` demands of the channel; null when it is off. Throws
-/// std::runtime_error.
-std::unique_ptr<collision_guard::CollisionGuard> load_guard(const channel_setup::ChannelSetup& machine,
-                                                            const std::string& directory,
-                                                            const machine::Parameters& parameters);
 /// Of `collision: warn`, to the error output; `guard` may be null.
 void print_warnings(collision_guard::CollisionGuard* guard, const std::string& program);
 

@@ -23,40 +23,53 @@ struct Common {
   std::function<int()> action;  ///< of the sub-command that was parsed
 };
 
-void add_cluster_commands(CLI::App& app, Common& common);      // up, status
-void add_down_command(CLI::App& app, Common& common);          // down
-void add_run_command(CLI::App& app, Common& common);           // run
-void add_operator_commands(CLI::App& app, Common& common);     // mdi, alarms, estop
-void add_channel_command(CLI::App& app, Common& common);       // channel, its status
-void add_parameter_commands(CLI::App& app, Common& common);    // param
-void add_compensation_command(CLI::App& app, Common& common);  // compensation
-void add_topic_commands(CLI::App& app, Common& common);        // topic, record
-void add_kins_command(CLI::App& app, Common& common);          // kins
-void add_truth_command(CLI::App& app, Common& common);         // truth
-void add_variables_command(CLI::App& app, Common& common);     // variables
-void add_measure_command(CLI::App& app, Common& common);       // measure ballbar, laser, rtest
-void add_servo_command(CLI::App& app, Common& common);         // servo test, encoders, tune
-void add_gantry_command(CLI::App& app, Common& common);        // gantry
-void add_calibrate_command(CLI::App& app, Common& common);     // calibrate kinematics, manual, undo
-void add_collision_command(CLI::App& app, Common& common);     // collision
-void add_check_command(CLI::App& app, Common& common);         // check
-void add_program_commands(CLI::App& app, Common& common);      // program
-void add_plan_command(CLI::App& app, Common& common);          // plan
-void add_plc_command(CLI::App& app, Common& common);           // plc
-void add_plc_online_commands(CLI::App& plc, Common& common);   // plc variables, watch, force, trace
-void add_plc_load_commands(CLI::App& plc, Common& common);     // plc load, programs
-void add_recording_commands(CLI::App& app, Common& common);    // info, diff, export
-void add_verify_command(CLI::App& app, Common& common);        // verify
-void add_test_command(CLI::App& app, Common& common);          // test
-void add_replay_command(CLI::App& app, Common& common);        // replay
-void add_state_commands(CLI::App& app, Common& common);        // state, backup, restore
-void add_swap_command(CLI::App& app, Common& common);          // swap
-void add_upgrade_command(CLI::App& app, Common& common);       // upgrade
-void add_user_command(CLI::App& app, Common& common);          // user
-void add_certificate_command(CLI::App& app, Common& common);   // certificate
-void add_new_command(CLI::App& app, Common& common);           // new service, new machine
-void add_completion_command(CLI::App& app, Common& common);    // completion
-void add_check_machine_command(CLI::App& app, Common& common);
+// Operate
+void add_cluster_commands(CLI::App& app, Common& common);   // up, status
+void add_channel_command(CLI::App& app, Common& common);    // channel, its status
+void add_operator_commands(CLI::App& app, Common& common);  // mdi, alarms, estop
+void add_variables_command(CLI::App& app, Common& common);  // variables
+void add_state_commands(CLI::App& app, Common& common);     // state, backup, restore
+void add_swap_command(CLI::App& app, Common& common);       // swap
+void add_upgrade_command(CLI::App& app, Common& common);    // upgrade
+void add_down_command(CLI::App& app, Common& common);       // down
+
+// Program
+void add_program_commands(CLI::App& app, Common& common);   // program
+void add_check_command(CLI::App& app, Common& common);      // check
+void add_plan_command(CLI::App& app, Common& common);       // plan
+void add_collision_command(CLI::App& app, Common& common);  // collision
+void add_run_command(CLI::App& app, Common& common);        // run
+
+// Commission
+void add_check_machine_command(CLI::App& app, Common& common);  // check-machine
+void add_parameter_commands(CLI::App& app, Common& common);     // param
+void add_plc_command(CLI::App& app, Common& common);            // plc
+void add_kins_command(CLI::App& app, Common& common);           // kins
+void add_truth_command(CLI::App& app, Common& common);          // truth
+void add_measure_command(CLI::App& app, Common& common);        // measure ballbar, laser, sensor-nest
+void add_compensation_command(CLI::App& app, Common& common);   // compensation
+void add_servo_command(CLI::App& app, Common& common);          // servo test, encoders, tune
+void add_gantry_command(CLI::App& app, Common& common);         // gantry
+void add_calibrate_command(CLI::App& app, Common& common);      // calibrate kinematics, manual, undo
+void add_user_command(CLI::App& app, Common& common);           // user
+void add_certificate_command(CLI::App& app, Common& common);    // certificate
+
+// Record and verify
+void add_record_command(CLI::App& app, Common& common);      // record
+void add_recording_commands(CLI::App& app, Common& common);  // info, diff, export
+void add_replay_command(CLI::App& app, Common& common);      // replay
+void add_verify_command(CLI::App& app, Common& common);      // verify
+void add_test_command(CLI::App& app, Common& common);        // test
+
+// Develop
+void add_new_command(CLI::App& app, Common& common);         // new service, new machine
+void add_topic_commands(CLI::App& app, Common& common);      // topic
+void add_bench_command(CLI::App& app, Common& common);       // bench
+void add_completion_command(CLI::App& app, Common& common);  // completion
+
+// Of plc
+void add_plc_online_commands(CLI::App& plc, Common& common);  // plc variables, watch, force, trace
+void add_plc_load_commands(CLI::App& plc, Common& common);    // plc load, programs
 
 /// `trunnion check` of a file for a machine by name or directory with the tables that are `active` on it; 1
 /// when the program has an error. `fetch` is called before the first subprogram is looked for: it writes

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // compensation import|export|show: the tables of a machine as text in um and 0.001 deg
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -9,10 +11,10 @@
 #include "canonical/axes.hpp"
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
-#include "error_tables/table_parameters.hpp"
+#include "compensation/table_parameters.hpp"
 #include "machine/machine.hpp"
 #include "machine/yaml.hpp"
-#include "machine_settings.hpp"
+#include "machine_directory.hpp"
 #include "parameter_request.hpp"
 #include "storage/file.hpp"
 
@@ -81,11 +83,10 @@ int show_tables(const TableOptions& options, const Common& common) {
                    {"largest", *high * 1e3},
                    {"unit", unit}});
     if (common.json) continue;
-    char line[200];
-    std::snprintf(line, sizeof line, "%-12s %-6s direction %d, %zu points, %.3f .. %.3f %s: %.3f .. %.3f %s",
-                  kind, error_tables::name_of(table).c_str(), static_cast<int>(table.direction), table.points,
-                  start, end, position, *low * 1e3, *high * 1e3, unit);
-    std::cout << line << "\n";
+    std::cout << fmt::format(
+        "{:<12} {:<6} direction {}, {} points, {:.3f} .. {:.3f} {}: {:.3f} .. {:.3f} {}\n", kind,
+        error_tables::name_of(table), static_cast<int>(table.direction), table.points, start, end, position,
+        *low * 1e3, *high * 1e3, unit);
   }
   for (const auto& one : tables.squareness) {
     const std::string name = {canonical::axis_letters[one.moving], '_',
@@ -93,10 +94,7 @@ int show_tables(const TableOptions& options, const Common& common) {
     all.push_back(
         {{"kind", "squareness"}, {"table", name}, {"angle", one.angle * 1e3}, {"unit", "0.001 deg"}});
     if (common.json) continue;
-    char line[120];
-    std::snprintf(line, sizeof line, "%-12s %-6s %.3f 0.001 deg", "squareness", name.c_str(),
-                  one.angle * 1e3);
-    std::cout << line << "\n";
+    std::cout << fmt::format("{:<12} {:<6} {:.3f} 0.001 deg\n", "squareness", name, one.angle * 1e3);
   }
   if (common.json)
     std::cout << all.dump(2) << "\n";

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "cluster/cluster_files.hpp"
 #include "commands.hpp"
@@ -11,14 +13,18 @@
 namespace trunnion::cli {
 namespace {
 
+// A former name of a command has no group: it is understood, and not offered.
+std::vector<const CLI::App*> offered(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+}
+
 void collect(const CLI::App& app, const std::string& path, std::string& cases) {
   std::string words;
-  for (const auto* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-    words += sub->get_name() + " ";
+  for (const auto* sub : offered(app)) words += sub->get_name() + " ";
   for (const auto* option : app.get_options())
     for (const auto& name : option->get_lnames()) words += "--" + name + " ";
   cases += "    '" + path + "') words='" + words + "' ;;\n";
-  for (const auto* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+  for (const auto* sub : offered(app))
     collect(*sub, path + (path.empty() ? "" : " ") + sub->get_name(), cases);
 }
 
@@ -31,8 +37,7 @@ void add_completion_command(CLI::App& app, Common& common) {
     common.action = [&app] {
       std::string cases, commands = "'param '*|'topic '*";
       collect(app, "", cases);
-      for (const auto* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-        commands += "|' " + sub->get_name() + "'";
+      for (const auto* sub : offered(app)) commands += "|' " + sub->get_name() + "'";
       std::cout << "_trunnion() {\n  local path='' word words='' i\n  for ((i = 1; i < COMP_CWORD; i++)); "
                    "do\n    word=${COMP_WORDS[i]}\n"
                    "    [[ $word == -* ]] || case \"$path $word\" in\n"

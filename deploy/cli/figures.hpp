@@ -2,9 +2,10 @@
 // Figures as lines of text and as JSON, in the units in which they are shown.
 #pragma once
 
-#include <cstdio>
+#include <fmt/core.h>
+
 #include <iostream>
-#include <string>
+#include <utility>
 
 #include "bus/json.hpp"
 #include "truth/pose_report.hpp"
@@ -13,15 +14,11 @@ namespace trunnion::cli {
 
 constexpr double um = 1e3, urad = 1e6;  // of mm, of rad
 
-/// As printf, at most 240 bytes.
-std::string text(const char* format, auto... values) {
-  char line[240];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
+/// A line on standard output, which appears at once.
+template <class... Values>
+void print(fmt::format_string<Values...> format, Values&&... values) {
+  std::cout << fmt::format(format, std::forward<Values>(values)...) << std::endl;
 }
-
-/// The same as a line on standard output, which appears at once.
-void print(const char* format, auto... values) { std::cout << text(format, values...) << std::endl; }
 
 inline bus::Json vector_json(const geometry::Vec3& v, double unit = 1) {
   return bus::Json::array({v[0] * unit, v[1] * unit, v[2] * unit});

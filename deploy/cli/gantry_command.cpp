@@ -4,57 +4,34 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
+#include <utility>
 
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
+#include "cluster/session_cluster.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
 #include "machine/parameter_constants.hpp"
-#include "session_cluster.hpp"
-#include "stream/gantry_synchronization.hpp"
-#include "stream/stage_core.hpp"
+#include "stream/gantry_report.hpp"
 
 namespace trunnion::cli {
 namespace {
 
-using machine::GantryPair;
+using stream::GantryReport;
 
 struct GantryOptions {
   std::string machine;
   bool write = false;
 };
 
-const char* state_of(const GantryPair& pair, const idl::stream::FeedbackFrame& f) {
-  const auto i = static_cast<std::size_t>(pair.slave_column);
-  if (i >= f.enabled.size() || f.enabled[i] == 0) return "drives off";
-  if (f.enabled[i] == 3) return "slave taken off";
-  if (f.mode == idl::stream::DriveMode::HOMING) return "homing";
-  if (f.mode == idl::stream::DriveMode::RETURNING) return "slave is aligned, or axes return to the path";
-  return "coupled";
-}
-
-// The parameter that makes the places where the sides are now belong together.
-struct AutoOffset {
-  std::uint32_t number = 0;
-  double now = 0, proposal = 0;  // mm
-};
-
-AutoOffset auto_offset(const machine::Parameters& p, const GantryPair& pair, double error) {
-  // Of an absolute encoder the position is kept and has no reference coordinate any longer.
-  const bool absolute = p.integer(parameter::homing_direction, pair.slave) == 0;
-  const auto& key = absolute ? parameter::gantry_zero_deviation : parameter::reference_coordinate;
-  AutoOffset offset{key.number(pair.slave), p.get(key, pair.slave), 0};
-  offset.proposal = std::round((offset.now + (absolute ? error : -error)) * 1e6) / 1e6;
-  return offset;
-}
-
 void print_limit(const char* what, double value, const char* unit, double limit, std::uint32_t number) {
   if (limit <= 0)
-    print("  %-22s %12.4f %-7s not supervised (parameter %s)", what, value, unit,
-          machine::number_text(number).c_str());
+    print("  {:<22} {:>12.4f} {:<7} not supervised (parameter {})", what, value, unit,
+          machine::number_text(number));
   else
-    print("  %-22s %12.4f %-7s limit %.4f (parameter %s)%s", what, value, unit, limit,
-          machine::number_text(number).c_str(), std::abs(value) > limit ? "  EXCEEDED" : "");
+    print("  {:<22} {:>12.4f} {:<7} limit {:.4f} (parameter {}){}", what, value, unit, limit,
+          machine::number_text(number), std::abs(value) > limit ? "  EXCEEDED" : "");
 }
 
 bus::Json json_of(double value, const char* unit, double limit, std::uint32_t number) {
@@ -63,89 +40,78 @@ bus::Json json_of(double value, const char* unit, double limit, std::uint32_t nu
   return j;
 }
 
+bus::Json json_of(const GantryReport& r) {
+  const auto number = [&](const auto& key) { return key.number(r.pair.slave); };
+  return {{"channel", r.channel},
+          {"master", {{"axis", r.pair.master}, {"name", r.master_name}, {"position_mm", r.master_position}}},
+          {"slave", {{"axis", r.pair.slave}, {"name", r.slave_name}, {"position_mm", r.slave_position}}},
+          {"state", r.state},
+          {"synchronization_error", json_of(r.difference.position, "mm", r.pair.limit,
+                                            number(parameter::synchronization_error_limit))},
+          {"speed_difference", json_of(r.difference.speed, "mm/min", r.pair.speed_limit,
+                                       number(parameter::synchronization_speed_limit))},
+          {"current_difference", json_of(r.difference.current, "A", r.pair.current_limit,
+                                         number(parameter::synchronization_current_limit))},
+          {"alignment", {{"on", r.pair.aligns}, {"limit_mm", r.pair.alignment_limit}}},
+          {"auto_offset",
+           {{"parameter", machine::number_text(r.offset.number)},
+            {"now_mm", r.offset.now},
+            {"proposal_mm", r.offset.proposal}}}};
+}
+
+void print_report(const GantryReport& r, bool written) {
+  const auto number = [&](const auto& key) { return key.number(r.pair.slave); };
+  print("{} (axis {}) with its slave {} (axis {}): {}", r.master_name, r.pair.master, r.slave_name,
+        r.pair.slave, r.state);
+  print("  {:<22} {:>12.4f} mm", r.master_name, r.master_position);
+  print("  {:<22} {:>12.4f} mm", r.slave_name, r.slave_position);
+  print_limit("synchronization error", r.difference.position, "mm", r.pair.limit,
+              number(parameter::synchronization_error_limit));
+  print_limit("difference of speeds", r.difference.speed, "mm/min", r.pair.speed_limit,
+              number(parameter::synchronization_speed_limit));
+  print_limit("difference of currents", r.difference.current, "A", r.pair.current_limit,
+              number(parameter::synchronization_current_limit));
+  if (r.pair.aligns)
+    print("  alignment on: errors up to {:.4f} mm at the release of the emergency stop (10a062)",
+          r.pair.alignment_limit);
+  else
+    print("  alignment off: the slave keeps its distance (10a062); limit {:.4f} mm", r.pair.alignment_limit);
+  if (r.proposes())
+    print("  Auto Offset: parameter {} of axis {} {} set to {:.6f} mm (now {:.6f})",
+          machine::number_text(r.offset.number), r.pair.slave, written ? "is" : "would be", r.offset.proposal,
+          r.offset.now);
+}
+
 int show_gantry(const GantryOptions& o, const Common& common) {
-  SessionCluster cluster(o.machine, common.domain);
-  cluster::Client client(cluster.running().run.domain);
+  const cluster::SessionCluster session(o.machine, common.domain);
+  cluster::Client client(session.running().run.domain);
   const auto p = machine::parameters_of(client.newest(topics::parameter_set));
-  const auto axes = machine::drive_axes(p);
-  const auto feedback = client.newest(topics::feedback_frame);
-  bus::Json out = {{"machine", cluster.running().machine}, {"gantries", bus::Json::array()}};
+  const auto feedback = client.newest(topics::feedback);
+  const auto reports = stream::gantry_reports(p, feedback);
+  if (o.write && !reports.empty() && stream::axes_move(feedback))
+    throw std::runtime_error("the axes move: Auto Offset takes the positions at rest; nothing was written");
+  bus::Json out = {{"machine", session.running().machine}, {"gantries", bus::Json::array()}};
   idl::parameters::ParameterRequest request;
   request.operation = idl::parameters::Operation::IMPORT;
   request.who = "gantry auto offset";
-  for (std::uint16_t channel = 0; channel < 10; ++channel) {
-    const auto pairs = machine::gantry_pairs(p, channel);
-    std::vector<double> offsets(pairs.size(), 0);
-    for (const auto& echo : feedback.channels)
-      if (const auto* state = stream::find_state(echo.states, idl::stream::Stage::GANTRY);
-          echo.channel == channel && state != nullptr)
-        offsets = stream::compensated_offsets(pairs.size(), state->values);
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const auto& pair = pairs[k];
-      const auto m = static_cast<std::size_t>(pair.master_column);
-      const auto s = static_cast<std::size_t>(pair.slave_column);
-      if (std::max(m, s) >= feedback.position.size())
-        throw std::runtime_error("the drive does not report axis " + std::to_string(pair.slave));
-      const auto d = stream::gantry_difference(pair, feedback, offsets[k]);
-      const double shown = p.integer(parameter::slave_display_mode, pair.slave) == 1 ? feedback.position[m]
-                                                                                     : feedback.position[s];
-      const auto offset = auto_offset(p, pair, d.position);
-      const std::string state = state_of(pair, feedback);
-      const bool moves = std::any_of(feedback.channels.begin(), feedback.channels.end(),
-                                     [](const auto& echo) { return echo.active; });
-      if (o.write && (moves || feedback.mode == idl::stream::DriveMode::HOMING))
-        throw std::runtime_error(
-            "the axes move: Auto Offset takes the positions at rest; nothing was written");
-      const bool changes = std::abs(offset.proposal - offset.now) >= 1e-4;  // mm
-      if (changes) request.values.push_back({offset.number, offset.proposal, ""});
-      const auto number = [&](const auto& key) { return key.number(pair.slave); };
-      const auto position_limit = number(parameter::synchronization_error_limit);
-      const auto speed_limit = number(parameter::synchronization_speed_limit);
-      const auto current_limit = number(parameter::synchronization_current_limit);
-      if (common.json) {
-        out["gantries"].push_back(
-            {{"channel", channel},
-             {"master",
-              {{"axis", pair.master}, {"name", axes[m].name}, {"position_mm", feedback.position[m]}}},
-             {"slave", {{"axis", pair.slave}, {"name", axes[s].name}, {"position_mm", shown}}},
-             {"state", state},
-             {"synchronization_error", json_of(d.position, "mm", pair.limit, position_limit)},
-             {"speed_difference", json_of(d.speed, "mm/min", pair.speed_limit, speed_limit)},
-             {"current_difference", json_of(d.current, "A", pair.current_limit, current_limit)},
-             {"alignment", {{"on", pair.aligns}, {"limit_mm", pair.alignment_limit}}},
-             {"auto_offset",
-              {{"parameter", machine::number_text(offset.number)},
-               {"now_mm", offset.now},
-               {"proposal_mm", offset.proposal}}}});
-        continue;
-      }
-      print("%s (axis %d) with its slave %s (axis %d): %s", axes[m].name.c_str(), pair.master,
-            axes[s].name.c_str(), pair.slave, state.c_str());
-      print("  %-22s %12.4f mm", axes[m].name.c_str(), feedback.position[m]);
-      print("  %-22s %12.4f mm", axes[s].name.c_str(), shown);
-      print_limit("synchronization error", d.position, "mm", pair.limit, position_limit);
-      print_limit("difference of speeds", d.speed, "mm/min", pair.speed_limit, speed_limit);
-      print_limit("difference of currents", d.current, "A", pair.current_limit, current_limit);
-      print(pair.aligns ? "  alignment on: errors up to %.4f mm at the release of the emergency stop (10a062)"
-                        : "  alignment off: the slave keeps its distance (10a062); limit %.4f mm",
-            pair.alignment_limit);
-      if (changes)
-        print("  Auto Offset: parameter %s of axis %d %s set to %.6f mm (now %.6f)",
-              machine::number_text(offset.number).c_str(), pair.slave, o.write ? "is" : "would be",
-              offset.proposal, offset.now);
-    }
+  for (const auto& report : reports) {
+    if (report.proposes()) request.values.push_back({report.offset.number, report.offset.proposal, ""});
+    if (common.json)
+      out["gantries"].push_back(json_of(report));
+    else
+      print_report(report, o.write);
   }
-  const bool write = o.write && !request.values.empty() && !cluster.own();
+  const bool write = o.write && !request.values.empty() && !session.own();
   if (write) client.parameter(std::move(request));
   out["written"] = write;
   if (common.json) {
     std::cout << bus::text_of(out) << "\n";
-  } else if (out["gantries"].empty() && machine::gantry_pairs(p).empty()) {
-    print("%s has no gantry (parameters 010050, 10a100)", cluster.running().machine.c_str());
+  } else if (machine::gantry_pairs(p).empty()) {
+    print("{} has no gantry (parameters 010050, 10a100)", session.running().machine);
   } else if (write) {
     print("written; it acts after a restart, then home axes with an incremental encoder");
   } else {
-    print("nothing written%s", o.write ? "" : ": --write sets what Auto Offset proposes");
+    print("nothing written{}", o.write ? "" : ": --write sets what Auto Offset proposes");
   }
   return 0;
 }

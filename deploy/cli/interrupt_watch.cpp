@@ -6,16 +6,23 @@
 
 namespace trunnion::cli {
 namespace {
+
 std::atomic<bool> interrupt_requested{false};
+
+void note(int) { interrupt_requested = true; }
+
+void handle(bool hangup, void (*handler)(int)) {
+  for (const int number : {SIGINT, SIGTERM}) std::signal(number, handler);
+  if (hangup) std::signal(SIGHUP, handler);
+}
+
 }  // namespace
 
-InterruptWatch::InterruptWatch() {
+InterruptWatch::InterruptWatch(bool hangup) : hangup_(hangup) {
   interrupt_requested = false;
-  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { interrupt_requested = true; });
+  handle(hangup_, &note);
 }
-InterruptWatch::~InterruptWatch() {
-  for (const int number : {SIGINT, SIGTERM}) std::signal(number, SIG_DFL);
-}
+InterruptWatch::~InterruptWatch() { handle(hangup_, SIG_DFL); }
 bool InterruptWatch::requested() { return interrupt_requested; }
 
 }  // namespace trunnion::cli

@@ -3,12 +3,17 @@
 
 namespace trunnion::cli {
 
-/// While one lives, SIGINT and SIGTERM are only noted.
+/// While one lives, SIGINT and SIGTERM are only noted, with `hangup` SIGHUP as well.
 class InterruptWatch {
  public:
-  InterruptWatch();
+  explicit InterruptWatch(bool hangup = false);
   ~InterruptWatch();
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
   static bool requested();
+
+ private:
+  bool hangup_;
 };
 
 }  // namespace trunnion::cli

@@ -8,8 +8,9 @@
 #include "commands.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/machine.hpp"
+#include "machine/parameter_setting.hpp"
 #include "machine/pose_lines.hpp"
-#include "machine_settings.hpp"
+#include "machine_directory.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -25,7 +26,7 @@ int kins(const KinsOptions& options) {
   if (!std::isfinite(options.tool_length)) throw std::runtime_error("--tool-length: not a number");
   machine::Parameters parameters;
   parameters.values = machine::machine_parameters(machine::load_machine(machine_directory(options.machine)));
-  for (const auto& setting : options.set) apply_setting(parameters, options.channel, setting);
+  for (const auto& setting : options.set) machine::apply_setting(parameters, options.channel, setting);
   const machine::PoseLines lines(parameters, options.channel, options.tool_length);
   for (const auto& line : machine::kinematics_warnings(parameters, options.channel))
     std::cerr << "trunnion: warning: " << line << "\n";

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // measure: the instruments on a machine with errors
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 #include "ball_commands.hpp"
 #include "bus/json.hpp"
@@ -13,10 +14,11 @@
 #include "commands.hpp"
 #include "figures.hpp"
 #include "geometry_command.hpp"
+#include "identification/measurement_plan.hpp"
+#include "report/truth_pictures.hpp"
 #include "storage/file.hpp"
 #include "true_machine.hpp"
 #include "truth/measurement.hpp"
-#include "truth_picture.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -28,10 +30,6 @@ struct MeasureOptions {
   std::size_t points = 0, runs = 5;
   std::vector<std::string> set;
 };
-
-bus::Json json_of_vector(const truth::Vec3& v, double unit) {
-  return bus::Json::array({v[0] * unit, v[1] * unit, v[2] * unit});
-}
 
 void write_plot(const std::string& path, const std::string& svg, bool json) {
   if (path.empty()) return;
@@ -54,9 +52,10 @@ int ballbar(const MeasureOptions& o, bool json) {
   path.first = o.plane[0] == 'X' ? 0 : 1;
   path.second = o.plane[1] == 'Y' ? 1 : 2;
   if (o.points > 0) path.points = o.points;
-  const auto m = truth::measure_ballbar(*machine.report, path, instrument(machine, "ballbar"));
-  const auto r = circle_report(o.plane, path.radius, m.ccw, m.cw);
-  write_plot(o.plot, ballbar_picture(m, machine.name + ", plane " + o.plane), json);
+  const auto m =
+      truth::measure_ballbar(*machine.report, path, identification::instrument(machine, "ballbar"));
+  const auto r = circular_tests::circle_report(o.plane, path.radius, m.ccw, m.cw);
+  write_plot(o.plot, report::ballbar_picture(m, machine.name + ", plane " + o.plane), json);
   if (json) {
     auto out = report_json(r);
     out["machine"] = machine.name, out["ccw"] = readings_json(m.ccw), out["cw"] = readings_json(m.cw);
@@ -69,18 +68,15 @@ int ballbar(const MeasureOptions& o, bool json) {
 
 int laser(const MeasureOptions& o, bool json) {
   const auto machine = machine_of(o);
-  truth::LaserPlan plan;
-  const std::string letters = "XYZABC";
-  plan.component = o.error.size() == 3 && o.error[0] == 'E' ? letters.find(o.error[1]) : std::string::npos;
-  plan.axis = o.error.size() == 3 ? letters.find(o.error[2]) : std::string::npos;
-  if (plan.component == std::string::npos || plan.axis > 2)
+  const auto error = identification::linear_axis_error(o.error);
+  if (!error)
     throw std::runtime_error("--error " + o.error + ": expected EXX, EYX .. ECZ: an error of X, Y or Z");
-  const bool angle = plan.component > 2;
-  if (angle && truth::Vec3::Unit(static_cast<Eigen::Index>(plan.component - 3))
-                       .cross(machine.report->model().tool_direction())
-                       .norm() < 0.01)
+  if (!identification::laser_shows(*error, machine.report->model().tool_direction()))
     throw std::runtime_error("--error " + o.error +
                              ": a rotation about the tool does not move the tool's axis");
+  truth::LaserPlan plan;
+  plan.component = error->component, plan.axis = error->axis;
+  const bool angle = plan.component > 2;
   const auto& travel = machine.outline.axes[plan.axis];
   const bool given = o.from != o.to;
   plan.from = given ? o.from : travel.low + 0.05 * (travel.high - travel.low);
@@ -89,11 +85,11 @@ int laser(const MeasureOptions& o, bool json) {
   plan.others = coordinates("--at", o.at);
   if (o.points > 0) plan.targets = o.points;
   plan.runs = o.runs;
-  const auto m =
-      truth::measure_laser(*machine.report, plan, instrument(machine, angle ? "laser_angle" : "laser"));
+  const auto m = truth::measure_laser(*machine.report, plan,
+                                      identification::instrument(machine, angle ? "laser_angle" : "laser"));
   const double unit = angle ? urad : um;
   const char* name = angle ? "urad" : "um";
-  write_plot(o.plot, laser_picture(m, machine.name + " " + o.error, unit, name), json);
+  write_plot(o.plot, report::laser_picture(m, machine.name + " " + o.error, unit, name), json);
   const auto& a = m.accuracy;
   const std::pair<const char*, double> figures[] = {{"accuracy_A", a.accuracy},
                                                     {"systematic_E", a.systematic},
@@ -114,18 +110,16 @@ int laser(const MeasureOptions& o, bool json) {
     return 0;
   }
   for (const auto& target : m.targets) {
-    char line[120];
     double up = 0, down = 0;
     for (const double value : target.up) up += value * unit / static_cast<double>(target.up.size());
     for (const double value : target.down) down += value * unit / static_cast<double>(target.down.size());
-    std::snprintf(line, sizeof line, "%12.4f %10.3f %10.3f %s", target.position, up, down, name);
-    std::cout << line << "\n";
+    std::cout << fmt::format("{:>12.4f} {:>10.3f} {:>10.3f} {}\n", target.position, up, down, name);
   }
   for (const auto& [figure, value] : figures) print_figure(figure, value * unit, name);
   return 0;
 }
 
-int rtest(const MeasureOptions& o, bool json) {
+int sensor_nest(const MeasureOptions& o, bool json) {
   const auto machine = machine_of(o);
   const auto index = o.axis.size() == 1 ? std::string_view("ABCUVW").find(o.axis[0]) : std::string_view::npos;
   if (index == std::string_view::npos || !machine.report->model().turns(index))
@@ -136,20 +130,18 @@ int rtest(const MeasureOptions& o, bool json) {
                to = given ? o.to : std::min(travel.high, 180.0);
   const auto readings =
       truth::measure_nest(*machine.report, 3 + index, from, to, o.points > 0 ? o.points : 13,
-                          coordinates("--at", o.at), instrument(machine, "rtest"));
+                          coordinates("--at", o.at), identification::instrument(machine, "rtest"));
   bus::Json out = bus::Json::array();
   for (const auto& r : readings) {
     if (json) {
       out.push_back({{"angle_deg", r.angle},
                      {"sensors_um", {r.sensors[0] * um, r.sensors[1] * um, r.sensors[2] * um}},
-                     {"deviation_um", json_of_vector(r.deviation, um)}});
+                     {"deviation_um", vector_json(r.deviation, um)}});
       continue;
     }
-    char line[160];
-    std::snprintf(line, sizeof line, "%10.3f %9.3f %9.3f %9.3f   %9.3f %9.3f %9.3f", r.angle,
-                  r.sensors[0] * um, r.sensors[1] * um, r.sensors[2] * um, r.deviation[0] * um,
-                  r.deviation[1] * um, r.deviation[2] * um);
-    std::cout << line << "\n";
+    std::cout << fmt::format("{:>10.3f} {:>9.3f} {:>9.3f} {:>9.3f}   {:>9.3f} {:>9.3f} {:>9.3f}\n", r.angle,
+                             r.sensors[0] * um, r.sensors[1] * um, r.sensors[2] * um, r.deviation[0] * um,
+                             r.deviation[1] * um, r.deviation[2] * um);
   }
   if (json)
     std::cout << bus::text_of({{"machine", machine.name}, {"axis", o.axis}, {"readings", out}}) << "\n";
@@ -169,6 +161,22 @@ CLI::App* add_measurement(CLI::App& app, Common& common, const std::string& name
   command->add_option("--channel", options->channel, "Channel (default 0)")->check(CLI::Range(0, 9));
   command->add_option("--set", options->set, "As of `trunnion truth`; may be repeated")->take_all();
   return command;
+}
+
+CLI::App* add_sensor_nest(CLI::App& measure, Common& common, const std::string& name,
+                          const std::shared_ptr<MeasureOptions>& options) {
+  auto* nest = add_measurement(
+      measure, common, name,
+      "The geometry alone: a rotary axis turns while the control keeps the tip at a place of the workpiece "
+      "(RTCP), from stop to stop; in motion: r-test. Angle, "
+      "three sensors, deviation x y z",
+      options, &sensor_nest);
+  nest->add_option("--axis", options->axis, "Rotary axis (default C)");
+  nest->add_option("--from", options->from, "deg (default: the travel, at most a turn)");
+  nest->add_option("--to", options->to, "deg");
+  nest->add_option("--at", options->at, "Place X,Y,Z of the ball in the workpiece frame (default 0,0,0)");
+  nest->add_option("--points", options->points, "Angles (default 13)")->check(CLI::Range(2, 10000));
+  return nest;
 }
 
 }  // namespace
@@ -200,17 +208,8 @@ void add_measure_command(CLI::App& app, Common& common) {
   beam->add_option("--points", options->points, "Targets (default 11)")->check(CLI::Range(2, 10000));
   beam->add_option("--runs", options->runs, "Runs up and down (default 5)")->check(CLI::Range(2, 1000));
   beam->add_option("--plot", options->plot, "Write the deviations (SVG)");
-  auto* nest = add_measurement(
-      *measure, common, "rtest",
-      "The geometry alone: a rotary axis turns while the control keeps the tip at a place of the workpiece "
-      "(RTCP), from stop to stop; in motion: r-test. Angle, "
-      "three sensors, deviation x y z",
-      options, &rtest);
-  nest->add_option("--axis", options->axis, "Rotary axis (default C)");
-  nest->add_option("--from", options->from, "deg (default: the travel, at most a turn)");
-  nest->add_option("--to", options->to, "deg");
-  nest->add_option("--at", options->at, "Place X,Y,Z of the ball in the workpiece frame (default 0,0,0)");
-  nest->add_option("--points", options->points, "Angles (default 13)")->check(CLI::Range(2, 10000));
+  add_sensor_nest(*measure, common, "sensor-nest", options);
+  add_sensor_nest(*measure, common, "rtest", options)->group("");  // its name up to 0.3
 }
 
 }  // namespace trunnion::cli

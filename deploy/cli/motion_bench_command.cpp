@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <iostream>
 
-#include "analysis/motion_bench.hpp"
 #include "analysis/program_run.hpp"
 #include "bus/json.hpp"
 #include "cluster/cluster_files.hpp"
 #include "commands.hpp"
 #include "language/text_source.hpp"
+#include "motion_analysis/motion_bench.hpp"
 
 namespace trunnion::cli {
 namespace {

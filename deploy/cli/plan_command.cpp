@@ -11,10 +11,10 @@
 
 #include "analysis/file_source.hpp"
 #include "analysis/program_folders.hpp"
-#include "analysis/program_run.hpp"
 #include "cluster/cluster_files.hpp"
 #include "collision_machine.hpp"
 #include "commands.hpp"
+#include "motion_analysis/plan_report.hpp"
 #include "plan_picture.hpp"
 
 namespace trunnion::cli {
@@ -78,7 +78,7 @@ int run_plan(const Plan& plan) {
     for (const char letter : axes.letters) std::fprintf(file.get(), ",%c", letter);
     std::fprintf(file.get(), ",tip_x,tip_y,tip_z,feed\n");
   }
-  const auto guard = load_guard(machine, directory, tables.parameters);
+  const auto guard = collision_guard::load_guard(machine, directory, tables.parameters, 0);
   PlanPicture picture(machine.cycle_seconds());
   const auto report = analysis::plan_program(
       text, machine, machine.reference_position(),

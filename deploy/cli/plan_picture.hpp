@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/program_run.hpp"
+#include "motion_analysis/place_cost.hpp"
 
 namespace trunnion::cli {
 

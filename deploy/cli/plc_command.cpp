@@ -15,10 +15,9 @@
 #include "plc/devices/device_file.hpp"
 #include "plc/devices/message_file.hpp"
 #include "plc/devices/modbus_file.hpp"
-#include "plc/instruction_list/compiler.hpp"
 #include "plc/library/register_names.hpp"
 #include "plc/syntax/token.hpp"
-#include "plc/tools/program_run.hpp"
+#include "plc/tools/source_run.hpp"
 #include "plc/tools/uses.hpp"
 
 namespace trunnion::cli {
@@ -41,26 +40,6 @@ std::string read(const std::string& path) {
   return text.str();
 }
 
-/// Instruction lists: an error ends its list, so of each at most one is known.
-void add_lists(const std::vector<std::string>& files, st::Compilation& result) {
-  il::Compiler lists(il::interface_symbols());
-  for (const auto& path : files) {
-    if (!path.ends_with(".il")) continue;
-    try {
-      st::add_uses(result, path, lists.compile(read(path), path));
-    } catch (const il::CompileError& error) {
-      result.files.push_back(path);
-      result.diagnostics.push_back(
-          {st::Severity::error,
-           {static_cast<std::uint16_t>(result.files.size() - 1), static_cast<std::uint32_t>(error.line),
-            static_cast<std::uint32_t>(error.column)},
-           error.text});
-      result.code.reset();
-    }
-  }
-  for (const auto& warning : lists.warnings()) std::cerr << warning << "\n";
-}
-
 st::Compilation compiled(const std::vector<std::string>& files, bool functions) {
   std::vector<st::Source> sources;
   for (const auto& path : files) {
@@ -74,11 +53,9 @@ st::Compilation compiled(const std::vector<std::string>& files, bool functions) 
       continue;
     }
     if (path.ends_with(".yaml")) text = st::read_devices(text, path, st::interface_registers()).program;
-    if (!path.ends_with(".il")) sources.push_back({path, std::move(text)});
+    sources.push_back({path, std::move(text)});
   }
-  auto result = st::compile(sources, st::interface_registers(), functions);
-  add_lists(files, result);
-  return result;
+  return st::compile(sources, st::interface_registers(), functions);
 }
 
 bus::Json diagnostics_json(const st::Compilation& result) {
@@ -259,7 +236,7 @@ int run_plc(const PlcOptions& options, bool json) {
     if (function->result != nullptr)
       result.symbols.push_back({function->name, function->result, function->result_address, -1, false, {}});
   }
-  st::ProgramRun program(result);
+  st::SourceRun program(result);
   for (const auto& text : options.set) {
     const auto [path, value] = assignment(text);
     program.set(path, value);
@@ -284,7 +261,7 @@ int test(const PlcOptions& options, bool json) {
     throw std::runtime_error(options.directory + ": is no directory");
   for (const auto& entry : std::filesystem::directory_iterator(options.directory))
     if (entry.path().extension() == ".st" || entry.path().extension() == ".xml" ||
-        entry.path().filename() == "devices.yaml")
+        st::is_codesys_export(entry.path().string()) || entry.path().filename() == "devices.yaml")
       files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   if (files.empty()) throw std::runtime_error(options.directory + ": has no .st file");
@@ -331,7 +308,7 @@ void add_plc_command(CLI::App& app, Common& common) {
       add_command(*plc, common, "run", "Run programs, or one program or function, and print every variable",
                   [options, &common] { return run_plc(*options, common.json); });
   runs->add_option("files", options->files,
-                   "Structured Text, PLCopen XML and devices.yaml, translated together")
+                   "Structured Text, PLCopen XML, instruction lists and devices.yaml, translated together")
       ->required();
   runs->add_option("--call", options->call, "Program or function to run (default: every program)");
   runs->add_option("--scans", options->scans, "Number of scans (default 1)")->check(CLI::Range(1, 100000000));

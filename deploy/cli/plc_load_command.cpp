@@ -204,7 +204,7 @@ void add_plc_load_commands(CLI::App& plc, Common& common) {
                   "Load programs into the PLC that runs, after a comparison; says before what is not kept",
                   [options, &common] { return run_load(common, *options); });
   loads->add_option("directory", options->directory,
-                    "Directory with .st and .xml files, fast.il, main.il, devices.yaml, modbus.yaml");
+                    "Directory with .st, .exp and .xml files, fast.il, main.il, devices.yaml, modbus.yaml");
   loads->add_flag("--dry-run", options->dry_run, "Only translate them and say what is not kept");
   loads->add_flag("--undo", options->undo, "Load those again that ran before the last load");
   loads->add_flag("--take-right", options->take_over, cluster::take_right_help);

@@ -2,8 +2,6 @@
 // plc variables, uses, watch, force, trace, tasks: the values of the PLC that runs
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -12,7 +10,8 @@
 
 #include "bus/json.hpp"
 #include "cluster/operating_station.hpp"
-#include "plc_online/task_times.hpp"
+#include "interrupt_watch.hpp"
+#include "plc/online/task_times.hpp"
 #include "plc_session.hpp"
 
 namespace trunnion::cli {
@@ -25,8 +24,6 @@ struct PlcOnlineOptions {
   std::uint64_t count = 0;
   bool permanent = false, release = false, list = false, take_over = false;
 };
-
-std::atomic<bool> watch_interrupted{false};
 
 // All pages of a list.
 template <class Row>
@@ -103,11 +100,10 @@ int watch(const Common& common, const PlcOnlineOptions& options) {
   auto reply = session.call(request);
   auto asked = service::monotonic_seconds();
   ShownVariables shown(reply.variables);
-  std::signal(SIGINT, [](int) { watch_interrupted = true; });
-  std::signal(SIGTERM, [](int) { watch_interrupted = true; });
+  const InterruptWatch interrupts;
   idl::plc::Watched sample, last;
   std::uint64_t written = 0;
-  while (!watch_interrupted && (options.count == 0 || written < options.count)) {
+  while (!InterruptWatch::requested() && (options.count == 0 || written < options.count)) {
     if (service::monotonic_seconds() - asked > 1.5) {
       reply = session.call(request);
       asked = service::monotonic_seconds();
@@ -225,8 +221,7 @@ int trace(const Common& common, const PlcOnlineOptions& options) {
   request.scans = options.scans;
   set_condition(options.when, request);
   const ShownVariables shown(session.call(request).variables);
-  std::signal(SIGINT, [](int) { watch_interrupted = true; });
-  std::signal(SIGTERM, [](int) { watch_interrupted = true; });
+  const InterruptWatch interrupts;
   std::vector<std::uint64_t> cells;
   const auto width = shown.cells() + 2;
   bool complete = false;
@@ -238,7 +233,7 @@ int trace(const Common& common, const PlcOnlineOptions& options) {
     cells.insert(cells.end(), reply.cells.begin(), reply.cells.end());
     complete = reply.complete;
     if (reply.cells.empty()) {
-      if (watch_interrupted) break;
+      if (InterruptWatch::requested()) break;
       session.bus().signal().wait(0.02);
     }
   }

@@ -4,7 +4,7 @@
 
 #include "cluster/client.hpp"
 #include "commands.hpp"
-#include "plc_online/shown_variables.hpp"
+#include "plc/online/shown_variables.hpp"
 
 namespace trunnion::cli {
 

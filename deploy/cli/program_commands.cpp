@@ -11,12 +11,12 @@
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/stored_program.hpp"
 #include "commands.hpp"
 #include "machine/parameters.hpp"
 #include "machine/yaml.hpp"
+#include "parameter_store/machine_tables.hpp"
 #include "storage/temporary_directory.hpp"
-#include "stored_program.hpp"
-#include "tool_tables/machine_tables.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -32,7 +32,7 @@ struct ProgramOptions {
 };
 
 ProgramEntry stored(const ProgramList& list, const std::string& name) {
-  if (const auto found = find_program(list, name)) return *found;
+  if (const auto found = cluster::find_program(list, name)) return *found;
   throw std::runtime_error("there is no stored program " + name + "; trunnion program list shows them");
 }
 

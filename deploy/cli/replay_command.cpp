@@ -29,7 +29,7 @@ struct ReplayArguments {
   bool wait = false;
 };
 
-constexpr int stream_frames = 4096;   // that a writer of the stream keeps, for late joiners
+constexpr int stream_batches = 4096;  // that a writer of the stream keeps, for late joiners
 constexpr double match_timeout = 60;  // s for a first reader
 constexpr double match_pause = 1;     // s without a reader of another topic
 
@@ -55,13 +55,13 @@ int run_replay(const Common& common, const ReplayArguments& arguments) {
   action.sa_handler = [](int) { stop_requested = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  bus::Bus bus(bus::Vendor::cyclonedds, cluster::network_in(*common.domain), {stream_frames});
+  bus::Bus bus(bus::Vendor::cyclonedds, cluster::network_in(*common.domain), {stream_batches});
   std::map<const bus::TopicEntry*, std::unique_ptr<bus::RawWriter>> writers;
   for (const auto& d : due) {
     auto& writer = writers[d.message->topic];
     if (!writer)
       writer = bus.backend().writer(d.message->topic->description,
-                                    bus::writer_qos(d.message->topic->qos, {stream_frames}));
+                                    bus::writer_qos(d.message->topic->qos, {stream_batches}));
   }
   const auto pause = [](double seconds) {
     const double until = service::monotonic_seconds() + seconds;

@@ -1,27 +1,80 @@
 // SPDX-License-Identifier: Apache-2.0
 // run: a machine, a program, a report; bench: the same as a measurement
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "bus/json.hpp"
 #include "cluster/cluster_files.hpp"
 #include "commands.hpp"
-#include "run.hpp"
+#include "interrupt_watch.hpp"
+#include "parameter_request.hpp"
+#include "recorded_runs/recorded_run.hpp"
 
 namespace trunnion::cli {
 namespace fs = std::filesystem;
 namespace {
 
+using recorded_runs::RunOptions;
+
+void draw_progress(const std::vector<idl::channel::ChannelState>& states, double seconds) {
+  std::uint64_t cycle = 0;
+  std::string lines;
+  for (const auto& state : states) {
+    cycle = std::max(cycle, state.cycle);
+    lines += (lines.empty() ? "line " : ", ") + std::to_string(state.line) + " of " +
+             std::to_string(state.lines_total);
+  }
+  std::fprintf(stderr, "\r%s  cycle %llu  %.1f s ", lines.c_str(), static_cast<unsigned long long>(cycle),
+               seconds);
+  std::fflush(stderr);
+}
+
+// How the run is continued. `bar`: a line of progress is on the terminal.
+void say_stopped(const idl::channel::ChannelState& state, std::uint32_t domain, bool bar) {
+  const unsigned channel = state.channel;
+  std::fprintf(stderr,
+               "%schannel %u is stopped behind line %u (%s): 'trunnion channel start --channel %u "
+               "--domain %u' continues it, Ctrl-C ends the run\n",
+               bar ? "\n" : "", channel, static_cast<unsigned>(state.line),
+               state.detail.empty() ? "M0, M1 or a feed hold" : state.detail.c_str(), channel,
+               static_cast<unsigned>(domain));
+}
+
+// The news of a run on the terminal; of a quiet one only what ends it or has stopped it.
+recorded_runs::RunNews news_of(bool quiet, bool real_time) {
+  recorded_runs::RunNews news;
+  const bool bar = !quiet && isatty(2) != 0;
+  news.interrupted = &InterruptWatch::requested;
+  news.stopped = [bar](const auto& state, std::uint32_t domain) { say_stopped(state, domain, bar); };
+  if (bar) {
+    news.progress = &draw_progress;
+    news.progress_end = [] { std::fprintf(stderr, "\n"); };
+  }
+  if (!quiet)
+    news.ready = [real_time](const std::string& machine, const cluster::RunningCluster& cluster) {
+      std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.c_str(), cluster.start_seconds,
+                  real_time ? "real" : "virtual", cluster.run.domain);
+      std::fflush(stdout);
+    };
+  return news;
+}
+
 int run_machine(const Common& common, RunOptions options, const std::string& report_directory) {
   const fs::path out = report_directory.empty() ? fs::path("out") : fs::path(report_directory);
   fs::create_directories(out);
   if (options.recording.empty()) options.recording = (out / "recording.mcap").string();
-  options.quiet = common.json;
   options.domain = common.domain;
+  options.who = user_name() + " run";
+  const InterruptWatch watch(true);
+  options.news = news_of(common.json, options.real_time);
   const auto result = run_programs(options);
   bus::Json all = bus::Json::array();
   for (std::size_t c = 0; c < result.reports.size(); ++c) {
@@ -44,6 +97,7 @@ int bench(const Common& common, const std::string& machine, const std::string& p
           const std::vector<std::string>& vendors, int rounds, bool real_time) {
   const auto recording =
       (fs::temp_directory_path() / ("trunnion-bench-" + std::to_string(getpid()) + ".mcap")).string();
+  const InterruptWatch watch(true);
   bus::Json rows = bus::Json::array();
   if (!common.json)
     std::printf("%-11s %5s %12s %14s %10s %18s\n", "vendor", "round", "cycles", "x real time", "starved",
@@ -52,8 +106,9 @@ int bench(const Common& common, const std::string& machine, const std::string& p
     for (const auto& vendor : vendors) {
       RunOptions options;
       options.machine = machine, options.programs = {program}, options.vendor = vendor;
-      options.recording = recording, options.quiet = true, options.real_time = real_time;
+      options.recording = recording, options.real_time = real_time;
       options.continue_starved = real_time;
+      options.news = news_of(true, real_time);
       const auto result = run_programs(options);
       fs::remove(recording);
       if (!result.alarm.empty()) throw std::runtime_error(result.alarm);
@@ -80,8 +135,9 @@ int bench_real_time(const Common& common, RunOptions options, const std::vector<
                     double seconds) {
   options.recording =
       (fs::temp_directory_path() / ("trunnion-bench-" + std::to_string(getpid()) + ".mcap")).string();
-  options.quiet = common.json;
   options.real_time = true;
+  const InterruptWatch watch(true);
+  options.news = news_of(common.json, true);
   bus::Json rows = bus::Json::array();
   for (const auto& vendor : vendors) {
     options.vendor = vendor;
@@ -108,6 +164,7 @@ int bench_recording(const Common& common, const std::string& machine, const std:
                     const std::vector<std::string>& vendors, int rounds) {
   const auto recording =
       (fs::temp_directory_path() / ("trunnion-bench-" + std::to_string(getpid()) + ".mcap")).string();
+  const InterruptWatch watch(true);
   bus::Json rows = bus::Json::array();
   if (!common.json)
     std::printf("%-11s %24s %24s %8s\n", "vendor", "cycles/s, not recorded", "cycles/s, recorded", "ratio");
@@ -115,6 +172,7 @@ int bench_recording(const Common& common, const std::string& machine, const std:
     RunOptions options;
     options.machine = machine, options.programs = {program}, options.vendor = vendor;
     options.recording = recording, options.domain = common.domain;
+    options.news = news_of(true, false);
     const auto cost = measure_recording(options, rounds);
     const double without = median(cost.without), with = median(cost.with);
     rows.push_back({{"vendor", vendor},
@@ -167,7 +225,9 @@ void add_run_command(CLI::App& app, Common& common) {
   command->add_option("--from-line", options->from_line, "Start the first program from this line");
   command->add_flag("--dry-run", options->dry_run, "Parameter 04c914 takes the place of programmed feeds");
   command->add_option("--timeout", options->timeout, "Seconds of wall time after which the run has failed");
+}
 
+void add_bench_command(CLI::App& app, Common& common) {
   auto machine = std::make_shared<std::string>("ac-table"),
        program = std::make_shared<std::string>("nas979_cone");
   auto vendors =
@@ -176,7 +236,7 @@ void add_run_command(CLI::App& app, Common& common) {
   auto seconds = std::make_shared<double>(0);
   auto real_time = std::make_shared<bool>(false), recording = std::make_shared<bool>(false);
   auto subject = std::make_shared<std::string>("stream");
-  command =
+  auto* command =
       add_command(app, common, "bench",
                   "Measure the stream: the speed of a program in virtual time over the DDS vendors, or "
                   "starved cycles and delays in real time; or the planner: the reference motions and its "

@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // servo: tests of the drives of a running cluster, their tuning
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "figures.hpp"
-#include "servo_tests.hpp"
+#include "interrupt_watch.hpp"
+#include "machine_tests/servo_tests.hpp"
+#include "report/servo_pictures.hpp"
+#include "servo_analysis/tuning_task.hpp"
 #include "storage/file.hpp"
 
 namespace trunnion::cli {
 namespace {
+
+using machine_tests::ServoSession;
+using machine_tests::TestOptions;
+using machine_tests::TestReport;
+using servo_analysis::TestedAxis;
+using servo_analysis::TestFigure;
 
 struct ServoOptions : TestOptions {
   std::string machine, plot;
@@ -20,14 +31,10 @@ struct ServoOptions : TestOptions {
 };
 
 std::string limits(const TestFigure& f) {
-  char text[80] = "";
-  if (f.least && f.most)
-    std::snprintf(text, sizeof text, "limits %g .. %g", *f.least, *f.most);
-  else if (f.most)
-    std::snprintf(text, sizeof text, "limit %g", *f.most);
-  else if (f.least)
-    std::snprintf(text, sizeof text, "at least %g", *f.least);
-  return text;
+  if (f.least && f.most) return fmt::format("limits {:g} .. {:g}", *f.least, *f.most);
+  if (f.most) return fmt::format("limit {:g}", *f.most);
+  if (f.least) return fmt::format("at least {:g}", *f.least);
+  return {};
 }
 
 bus::Json json_of(const TestFigure& f) {
@@ -55,53 +62,52 @@ std::vector<servo_analysis::ServoSettings::Value> changes(
 void propose_settings(const ServoSession& session,
                       const std::vector<servo_analysis::ServoSettings::Value>& values) {
   for (const auto& v : values)
-    print("%s %-26s %10.5g -> %10.5g", machine::number_text(v.number).c_str(),
-          machine::Catalogue::instance().find(v.number)->name.c_str(), session.parameters().at(v.number),
-          v.value);
+    print("{} {:<26} {:>10.5g} -> {:>10.5g}", machine::number_text(v.number),
+          machine::Catalogue::instance().find(v.number)->name, session.parameters().at(v.number), v.value);
 }
 
 int run_test(const ServoOptions& o, const Common& common,
              TestReport (*test)(ServoSession&, const TestOptions&)) {
-  ServoSession session(o.machine, common.domain, o.channel);
-  const auto report = test(session, o);
-  if (!o.plot.empty()) storage::replace_file(o.plot, report.picture);
-  if (o.write && !report.proposal.empty()) session.write(report.proposal, "servo " + report.test);
+  const InterruptWatch watch(true);
+  ServoSession session(o.machine, common.domain, o.channel, &InterruptWatch::requested);
+  const auto found = test(session, o);
+  if (!o.plot.empty()) storage::replace_file(o.plot, report::picture_of(found.picture));
+  if (o.write && !found.proposal.empty()) session.write(found.proposal, "servo " + found.test);
   if (common.json) {
-    bus::Json out = {{"machine", session.machine()},
-                     {"test", report.test},
-                     {"axes", o.axes},
-                     {"reached", report.reached()}};
-    for (const auto& f : report.figures) out["figures"].push_back(json_of(f));
-    out["notes"] = report.notes;
-    out["proposal"] = json_of(report.proposal);
-    if (!report.details.is_null()) out["details"] = report.details;
+    bus::Json out = {
+        {"machine", session.machine()}, {"test", found.test}, {"axes", o.axes}, {"reached", found.reached()}};
+    for (const auto& f : found.figures) out["figures"].push_back(json_of(f));
+    out["notes"] = found.notes;
+    out["proposal"] = json_of(found.proposal);
+    if (!found.details.is_null()) out["details"] = found.details;
     std::cout << bus::text_of(out) << "\n";
-    return report.reached() ? 0 : 1;
+    return found.reached() ? 0 : 1;
   }
-  for (const auto& f : report.figures)
-    print("%-36s %12.4f %-20s %-20s %s", f.name.c_str(), f.value, f.unit.c_str(), limits(f).c_str(),
+  for (const auto& f : found.figures)
+    print("{:<36} {:>12.4f} {:<20} {:<20} {}", f.name, f.value, f.unit, limits(f),
           f.least || f.most ? f.reached() ? "pass" : "FAIL" : "");
-  for (const auto& note : report.notes) std::cout << note << "\n";
-  propose_settings(session, report.proposal);
-  if (!report.proposal.empty())
-    print(o.write ? "written; a change of encoders acts after a restart"
-                  : "nothing written: --write sets the parameters");
-  if (!o.plot.empty()) print("%s", o.plot.c_str());
-  return report.reached() ? 0 : 1;
+  for (const auto& note : found.notes) std::cout << note << "\n";
+  propose_settings(session, found.proposal);
+  if (!found.proposal.empty())
+    print("{}", o.write ? "written; a change of encoders acts after a restart"
+                        : "nothing written: --write sets the parameters");
+  if (!o.plot.empty()) print("{}", o.plot);
+  return found.reached() ? 0 : 1;
 }
 
-void say_tuned(const SessionAxis& axis, const servo_analysis::TuningResult& result, double amplitude_um) {
-  print("%c  %s; largest vibration %.2f um of %g um", axis.letter,
+void say_tuned(const TestedAxis& axis, const servo_analysis::TuningResult& result, double amplitude_um) {
+  print("{}  {}; largest vibration {:.2f} um of {:g} um", axis.letter,
         result.reached() ? "every limit is reached" : "NOT every limit is reached",
         result.largest_vibration * 1e3, amplitude_um);
-  if (result.settings.position_gain < least_position_gain)
-    print("%c  position gain %.4g 1/s, the limit of servo test position is %.1f 1/s: stiffen the axis",
-          axis.letter, result.settings.position_gain, least_position_gain);
+  if (result.settings.position_gain < servo_analysis::least_position_gain)
+    print("{}  position gain {:.4g} 1/s, the limit of servo test position is {:.1f} 1/s: stiffen the axis",
+          axis.letter, result.settings.position_gain, servo_analysis::least_position_gain);
 }
 
 int tune(const ServoOptions& o, const Common& common) {
-  ServoSession session(o.machine, common.domain, o.channel);
-  std::vector<const SessionAxis*> axes;
+  const InterruptWatch watch(true);
+  ServoSession session(o.machine, common.domain, o.channel, &InterruptWatch::requested);
+  std::vector<const TestedAxis*> axes;
   for (const auto& letter : o.axes)
     if (letter == "all")
       for (const auto& a : session.axes()) axes.push_back(&a);
@@ -111,12 +117,11 @@ int tune(const ServoOptions& o, const Common& common) {
   bus::Json out = {{"machine", session.machine()}, {"amplitude_um", o.amplitude_um}};
   bool reached = true;
   for (const auto* a : axes) {
-    const auto* partner = partner_of(session, *a);
-    auto task = tuning_task(session, *a, partner, o.amplitude_um / 1000);
+    const auto* partner = servo_analysis::partner_of(session.axes(), *a);
+    auto task = servo_analysis::tuning_task(session.parameters(), *a, partner, o.amplitude_um / 1000);
     if (!task.circles) partner = nullptr;
-    if (!common.json)
-      task.progress = [&](const std::string& line) { print("%c  %s", a->letter, line.c_str()); };
-    SessionAxisUnderTest axis(session, *a, partner);
+    if (!common.json) task.progress = [&](const std::string& line) { print("{}  {}", a->letter, line); };
+    machine_tests::SessionAxisUnderTest axis(session, *a, partner);
     const auto result = servo_analysis::tune_axis(axis, task);
     const auto changed = changes(session, result.settings.values(a->number));
     values.insert(values.end(), changed.begin(), changed.end());
@@ -148,9 +153,9 @@ int tune(const ServoOptions& o, const Common& common) {
     std::cout << bus::text_of(out) << "\n";
   } else {
     propose_settings(session, values);
-    print(write                 ? "written in one activation"
-          : o.write && !reached ? "nothing written: a limit is not reached"
-                                : "nothing written: --write sets the parameters");
+    print("{}", write                 ? "written in one activation"
+                : o.write && !reached ? "nothing written: a limit is not reached"
+                                      : "nothing written: --write sets the parameters");
   }
   return reached ? 0 : 1;
 }
@@ -178,20 +183,24 @@ void add_servo_command(CLI::App& app, Common& common) {
     TestReport (*run)(ServoSession&, const TestOptions&);
   };
   static constexpr Row rows[] = {
-      {"position", "Following error to and fro at 1000 mm/min, and Kv without feed-forward", &test_position},
-      {"speed", "Ripple of the speed and peaks of the acceleration at 3000 mm/min", &test_speed},
-      {"current", "Time constant of the current loop by a step of the torque at rest", &test_current},
+      {"position", "Following error to and fro at 1000 mm/min, and Kv without feed-forward",
+       &machine_tests::test_position},
+      {"speed", "Ripple of the speed and peaks of the acceleration at 3000 mm/min",
+       &machine_tests::test_speed},
+      {"current", "Time constant of the current loop by a step of the torque at rest",
+       &machine_tests::test_current},
       {"overshoot",
        "Overshoot of the speed at the end of an acceleration at 100, 200, 500, 1000 and 3000 mm/min",
-       &test_overshoot},
+       &machine_tests::test_overshoot},
       {"roundness",
        "Circle of two axes: roundness, quadrant jumps, servo mismatch with and without feed-forward",
-       &test_roundness},
+       &machine_tests::test_roundness},
       {"rtcp",
        "A rotary axis turns under RTCP: mismatch of linear and rotary axes with and without feed-forward",
-       &test_rtcp},
-      {"frequency", "Frequency response of speed or position loop by a chirp, margins", &test_frequency},
-      {"friction", "Coulomb, viscous and Stribeck friction, weight, inertia", &test_friction}};
+       &machine_tests::test_rtcp},
+      {"frequency", "Frequency response of speed or position loop by a chirp, margins",
+       &machine_tests::test_frequency},
+      {"friction", "Coulomb, viscous and Stribeck friction, weight, inertia", &machine_tests::test_friction}};
   const auto add = [&](CLI::App& parent, const Row& row) {
     auto o = std::make_shared<ServoOptions>();
     auto* command = add_command(parent, common, row.name, row.about,
@@ -227,7 +236,7 @@ void add_servo_command(CLI::App& app, Common& common) {
   const auto [encoders, encoder_options] = add(
       *servo, {"encoders",
                "Compare motor and load encoder over one revolution, before the loop is closed over the load",
-               &test_encoders});
+               &machine_tests::test_encoders});
   encoders->add_flag("--write", encoder_options->write, "Set sign and pulses of the load encoder");
   auto o = std::make_shared<ServoOptions>();
   auto* command = add_command(

@@ -168,10 +168,15 @@ void add_topic_commands(CLI::App& app, Common& common) {
                         [&common, name, window] { return rate(common, *name, *window); });
   command->add_option("topic", *name, "Name or handle")->required();
   command->add_option("--seconds", *window, "How long to count");
+}
+
+void add_record_command(CLI::App& app, Common& common) {
+  auto name = std::make_shared<std::string>();
   auto values = std::make_shared<RecorderValues>();
   auto force = std::make_shared<bool>(false);
-  command = add_command(app, common, "record", "Record the cluster into an MCAP file until Ctrl-C",
-                        [&common, name, force, values] { return record(common, *name, *force, *values); });
+  auto* command =
+      add_command(app, common, "record", "Record the cluster into an MCAP file until Ctrl-C",
+                  [&common, name, force, values] { return record(common, *name, *force, *values); });
   command->add_option("file", *name, "File to write")->required();
   command->add_flag("--force", *force, "Replace the file when it exists");
   for (std::size_t i = 0; i < recorder_options.size(); ++i)

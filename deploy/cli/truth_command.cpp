@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // truth: where the tool of a machine with errors truly is, without a cluster
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
@@ -8,9 +10,9 @@
 #include "bus/json.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
+#include "report/truth_pictures.hpp"
 #include "storage/file.hpp"
 #include "true_machine.hpp"
-#include "truth_picture.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -26,10 +28,8 @@ struct TruthOptions {
 
 void print_summary(const truth::DeviationSummary& summary) {
   const auto line = [](const char* name, const truth::Spread& spread, double unit, const char* unit_name) {
-    char text[160];
-    std::snprintf(text, sizeof text, "%s: mean %.2f, 95 %% %.2f, maximum %.2f %s", name, spread.mean * unit,
-                  spread.percentile_95 * unit, spread.maximum * unit, unit_name);
-    std::cout << text << "\n";
+    std::cout << fmt::format("{}: mean {:.2f}, 95 % {:.2f}, maximum {:.2f} {}\n", name, spread.mean * unit,
+                             spread.percentile_95 * unit, spread.maximum * unit, unit_name);
   };
   std::cout << summary.count << " random poses in the travel\n";
   line("tip", summary.tip, 1e3, "um");
@@ -63,8 +63,9 @@ int truth_of(const TruthOptions& options, bool json) {
   report.tool_length = options.tool_length;
   bus::Json out = {{"machine", machine.name}, {"structure", report.geometry().notation()}};
   if (!options.plot.empty()) {
-    storage::replace_file(options.plot, truth_picture(report, machine.outline,
-                                                      machine.name + " " + report.geometry().notation()));
+    storage::replace_file(
+        options.plot,
+        report::truth_picture(report, machine.outline, machine.name + " " + report.geometry().notation()));
     if (!json) std::cout << options.plot << "\n";
   }
   if (options.summary > 0) {

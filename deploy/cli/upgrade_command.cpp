@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // upgrade: the services of another build in the place of the running ones, one after the other
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <stdexcept>
-#include <vector>
 
-#include "bus/contract.hpp"
 #include "bus/json.hpp"
-#include "cluster/child_process.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
-#include "cluster/instances.hpp"
 #include "cluster/swap_ticket.hpp"
+#include "cluster/upgrade.hpp"
 #include "commands.hpp"
 #include "machine/machine.hpp"
-#include "machine/service_constants.hpp"
 #include "text/quantity.hpp"
 
 namespace trunnion::cli {
@@ -31,84 +23,12 @@ namespace fs = std::filesystem;
 using idl::service::SwapReply;
 using idl::service::SwapRequest;
 
-// One service: what runs now and what is to take its place.
-struct Replacement {
-  std::string shown;  // as in `status`
-  SwapRequest request;
-  std::string running;  // path of the executable, to put it back
-  std::string version;  // of what is to take its place
-  SwapReply reply;
-};
-
-// Version of an executable and contract of its service, as it says itself.
-std::string version_of(const std::string& executable) {
-  cluster::ChildOptions options;
-  options.arguments = {executable, "--version"};
-  options.read_from = 1;
-  auto said = cluster::ChildProcess(options).read_all();
-  while (!said.empty() && said.back() == '\n') said.pop_back();
-  return said;
-}
-
-std::string other_contract(const std::string& executable, const std::string& said,
-                           const std::string& contract) {
-  return executable + " is " + (said.empty() ? "of an unknown version" : said) +
-         ", this cluster runs with contract " + contract +
-         ": stop it and start it with the other build; nothing was replaced";
-}
-
 void require_rest(cluster::Client& client, const machine::MachineConfig& config) {
   for (std::uint16_t channel = 0; channel < config.channels; ++channel)
     if (const auto now = client.newest(topics::channel_state, channel).state;
         now != idl::channel::RunState::IDLE)
       throw std::runtime_error("channel " + std::to_string(channel) + " is " + bus::to_string(now) +
                                ": upgrade a machine at rest, with no program started");
-}
-
-// Stages first: they are compared cycle by cycle where the machine moves. The drive, which holds the axes, is
-// last.
-int place_in_order(const std::string& service) {
-  static const std::vector<std::string> last = {"parameters", "program", "plc",
-                                                "gateway",    "channel", "drive"};
-  const auto found = std::find(last.begin(), last.end(), service);
-  return found == last.end() ? -1 : static_cast<int>(found - last.begin());
-}
-
-// The services of this host, with what is to take their place: all of them can be started, or none is
-// replaced.
-std::vector<Replacement> plan(const cluster::RunningCluster& cluster, const machine::MachineConfig& config,
-                              const idl::service::Cluster& list, const std::string& directory) {
-  std::vector<Replacement> all;
-  std::map<std::string, std::string> said;
-  for (const auto& service : list.services) {
-    const auto entry = std::ranges::find(config.services, cluster::place_of(service.instance),
-                                         &machine::ServiceEntry::instance);
-    if (entry == config.services.end() || (!cluster.host.empty() && entry->host != cluster.host)) continue;
-    Replacement next;
-    next.shown = service.service;
-    if (service.service == machine::service::channel.name) next.shown += " " + std::to_string(entry->channel);
-    if (service.replica > 0) next.shown += " replica " + std::to_string(service.replica);
-    next.request.service = service.service;
-    next.request.replica = service.replica;
-    next.request.channel = static_cast<std::uint16_t>(entry->channel);
-    next.request.cycles = 1;  // at rest nothing comes that could be compared
-    next.request.executable = directory + "/" + machine::program_of(config, *entry);
-    const auto& executable = next.request.executable;
-    if (access(executable.c_str(), X_OK) != 0)
-      throw std::runtime_error(executable + ": there is no such executable; nothing was replaced");
-    if (!said.contains(executable)) said[executable] = version_of(executable);
-    next.version = said[executable];
-    const auto contract = bus::contract_of(service.service);
-    if (said[executable].find("contract " + contract) == std::string::npos)
-      throw std::runtime_error(other_contract(executable, said[executable], contract));
-    std::error_code gone;
-    next.running = fs::read_symlink("/proc/" + std::to_string(service.pid) + "/exe", gone).string();
-    all.push_back(std::move(next));
-  }
-  std::stable_sort(all.begin(), all.end(), [](const Replacement& a, const Replacement& b) {
-    return place_in_order(a.request.service) < place_in_order(b.request.service);
-  });
-  return all;
 }
 
 class Swapper {
@@ -134,16 +54,11 @@ class Swapper {
   service::RequestClient<SwapRequest, SwapReply> client_;
 };
 
-// In reverse order; returns what could not be put back.
-std::vector<std::string> put_back(Swapper& swapper, std::vector<Replacement>& replaced) {
-  std::vector<std::string> left;
-  for (auto it = replaced.rbegin(); it != replaced.rend(); ++it) {
-    auto request = it->request;
-    request.executable = it->running;
-    const auto reply = swapper.swap(request);
-    if (!reply.accepted) left.push_back(it->shown + " (" + reply.reason + ")");
-  }
-  return left;
+void print_replaced(const cluster::Replacement& one, std::size_t count, std::size_t of) {
+  std::printf(
+      "[%zu/%zu] %-24s %s, %s\n", count, of, one.shown.c_str(), one.version.c_str(),
+      one.reply.gap > 0 ? ("no service for " + text::quantity(one.reply.gap, "s", 3)).c_str() : "no gap");
+  std::fflush(stdout);
 }
 
 int upgrade(const Common& common, const std::string& directory, double timeout) {
@@ -153,33 +68,17 @@ int upgrade(const Common& common, const std::string& directory, double timeout) 
   const auto list = client.newest(topics::cluster);
   if (!list.ready) throw std::runtime_error("the machine is not ready: see 'trunnion status'");
   require_rest(client, config);
-  auto all = plan(cluster, config, list, fs::absolute(directory).lexically_normal().string());
-
+  auto all =
+      cluster::plan_upgrade(cluster, config, list, fs::absolute(directory).lexically_normal().string());
   Swapper swapper(cluster, timeout);
-  std::vector<Replacement> replaced;
-  for (auto& next : all) {
-    next.reply = swapper.swap(next.request);
-    if (!next.reply.accepted) {
-      const auto left = put_back(swapper, replaced);
-      std::string text = next.shown + ": " + next.reply.reason + "; ";
-      text += replaced.empty() ? "nothing was replaced"
-              : left.empty() ? "the " + std::to_string(replaced.size()) + " services before it were put back"
-                             : "these could not be put back: ";
-      for (std::size_t i = 0; i < left.size(); ++i) text += (i > 0 ? ", " : "") + left[i];
-      throw std::runtime_error(text);
-    }
-    if (!common.json) {
-      std::printf("[%zu/%zu] %-24s %s, %s\n", replaced.size() + 1, all.size(), next.shown.c_str(),
-                  next.version.c_str(),
-                  next.reply.gap > 0 ? ("no service for " + text::quantity(next.reply.gap, "s", 3)).c_str()
-                                     : "no gap");
-      std::fflush(stdout);
-    }
-    replaced.push_back(next);
-  }
+  cluster::replace_all(
+      all, [&](const SwapRequest& request) { return swapper.swap(request); },
+      [&](const cluster::Replacement& one, std::size_t count) {
+        if (!common.json) print_replaced(one, count, all.size());
+      });
   if (common.json) {
     bus::Json services = bus::Json::array();
-    for (const auto& one : replaced)
+    for (const auto& one : all)
       services.push_back({{"service", one.request.service},
                           {"replica", one.request.replica},
                           {"channel", one.request.channel},
@@ -193,7 +92,7 @@ int upgrade(const Common& common, const std::string& directory, double timeout) 
         "%s: %zu services upgraded; the launcher stays until 'trunnion down'. 'trunnion up' of the new build "
         "starts the "
         "new ones\n",
-        list.machine.c_str(), replaced.size());
+        list.machine.c_str(), all.size());
   }
   return 0;
 }

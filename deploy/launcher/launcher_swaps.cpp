@@ -11,6 +11,7 @@
 #include "service/node.hpp"
 #include "storage/file.hpp"
 #include "swap_journal.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::launcher {
 
@@ -58,7 +59,7 @@ void Launcher::serve_swaps() {
     const auto refuse = [&](const std::string& why) {
       idl::service::SwapReply reply;
       reply.outcome = idl::service::SwapOutcome::REFUSED;
-      reply.reason = why.substr(0, 256);
+      reply.reason = text::shortened(why, 256);
       swaps_.reply(request, reply);
     };
     auto* process = whom_to_swap(request);

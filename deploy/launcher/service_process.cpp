@@ -30,7 +30,7 @@ void ServiceProcess::start(const LaunchOptions& options, bool on_standby, double
                                 "--parent-bound"};
   for (auto& argument : service::network_arguments(options.network)) args.push_back(std::move(argument));
   if (options.virtual_time) args.emplace_back("--virtual-time");
-  if (on_standby) args.emplace_back("--shadow");
+  if (on_standby) args.emplace_back("--standby");
   if (e.service == machine::service::gateway.name) {
     args.insert(args.end(), {"--port", std::to_string(options.port)});
     if (const auto web = cluster::web_directory(); !web.empty()) args.insert(args.end(), {"--web", web});

@@ -16,6 +16,7 @@
 #include "stream/stage_names.hpp"
 #include "stream/stage_service.hpp"
 #include "swap_journal.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::launcher {
 namespace {
@@ -25,13 +26,13 @@ using idl::service::StandbyState;
 using idl::service::SwapOutcome;
 using idl::service::SwapReply;
 
-bus::Topic<idl::stream::AxisFrame> output_of(const std::string& service) {
+bus::Topic<idl::stream::AxisBatch> output_of(const std::string& service) {
   const auto* entry = bus::find_topic(machine::find_service(service)->output);
   return {entry->description.name.c_str(), entry->description.wire_type.c_str(), entry->qos};
 }
 
 Comparison comparison_of(const std::string& service) {
-  return stream::stage_of(service)               ? Comparison::frames
+  return stream::stage_of(service)               ? Comparison::batches
          : service == machine::service::plc.name ? Comparison::ticks
                                                  : Comparison::once;
 }
@@ -73,19 +74,19 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
       announced_(announced),
       request_(request),
       comparison_(comparison_of(old.entry.service)),
-      feedback_(bus, topics::feedback_frame),
+      feedback_(bus, topics::feedback),
       channels_(bus.reader(topics::channel_state)),
       alarms_(bus),
       promotions_(bus.writer(topics::promotion)),
       began_(now),
       moved_(began_),
       sequence_(comparison_, request.cycles, began_) {
-  if (comparison_ == Comparison::frames) {
+  if (comparison_ == Comparison::batches) {
     auto topic = output_of(old.entry.service);
     originals_.emplace(bus, topic);
     standby_topic_ = stream::standby_name(topic.name);
     topic.name = standby_topic_.c_str();
-    shadows_.emplace(bus, topic);
+    standby_.emplace(bus, topic);
   }
   if (access(fresh_.executable.c_str(), X_OK) == 0) fresh_.start(options_, true, now);
 }
@@ -95,7 +96,7 @@ Swap::~Swap() {
 }
 
 void Swap::read(double now) {
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   while (feedback_.take(feedback)) {
     executed_ = std::max(executed_, feedback.first + feedback.count);
     if (comparison_ == Comparison::ticks && feedback.tick > tick_) moved_ = now;
@@ -104,10 +105,10 @@ void Swap::read(double now) {
   idl::channel::ChannelState state;
   while (channels_.take(state)) run_states_[state.channel] = state.state;
   alarms_.read();
-  idl::stream::AxisFrame frame;
-  while (shadows_ && shadows_->take(frame)) frames_.shadow(frame);
-  while (originals_ && originals_->take(frame)) {
-    frames_.original(frame);
+  idl::stream::AxisBatch batch;
+  while (standby_ && standby_->take(batch)) batches_.standby(batch);
+  while (originals_ && originals_->take(batch)) {
+    batches_.original(batch);
     moved_ = now;
   }
 }
@@ -125,7 +126,7 @@ std::string Swap::why_not_at_rest() const {
 }
 
 std::string Swap::difference() const {
-  if (const auto& found = frames_.first_difference())
+  if (const auto& found = batches_.first_difference())
     return ("cycle " + std::to_string(found->cycle) + ", " + found->values).substr(0, 192);
   return fresh_.standby == StandbyState::DIFFERING ? fresh_.difference : "";
 }
@@ -144,7 +145,7 @@ SwapView Swap::view(double now) {
   view.standby = fresh_.standby;
   view.lifecycle = fresh_.lifecycle;
   view.in_step = fresh_.in_step;
-  view.compared = comparison_ == Comparison::frames ? frames_.equal_cycles() : fresh_.compared;
+  view.compared = comparison_ == Comparison::batches ? batches_.equal_cycles() : fresh_.compared;
   view.differs = !difference().empty();
   view.moved = moved_;
   view.may_end = why_not_at_rest().empty();
@@ -157,7 +158,7 @@ void Swap::start_new(double now) {
   fresh_.child.kill();
   alarms_.end(fresh_.entry.instance);
   fresh_.detail.clear();
-  frames_ = {};
+  batches_ = {};
   fresh_.start(options_, true, now);
 }
 
@@ -208,7 +209,7 @@ SwapReply Swap::reply(double now) const {
 SwapReply Swap::kept(SwapFailure failure, double now) const {
   auto result = reply(now);
   result.outcome = outcome_of(failure);
-  result.reason = reason(failure).substr(0, 256);
+  result.reason = text::shortened(reason(failure), 256);
   if (failure == SwapFailure::differs) result.difference = difference();
   result.cycle = executed_;
   return result;
@@ -231,7 +232,7 @@ SwapReply Swap::succeeded(double now) {
   try {
     append_swap(options_.state_directory, swap_line(request_, result, side(old_), side(fresh_)));
   } catch (const storage::StorageError& e) {
-    result.reason = std::string(e.what()).substr(0, 256);
+    result.reason = text::shortened(e.what(), 256);
   }
   old_ = std::move(fresh_);
   succeeded_ = true;

@@ -10,14 +10,14 @@
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
 #include "service_process.hpp"
-#include "stream/frame_reader.hpp"
-#include "stream/shadow_comparison.hpp"
+#include "stream/batch_comparison.hpp"
+#include "stream/batch_reader.hpp"
 #include "swap_sequence.hpp"
 
 namespace trunnion::launcher {
 
 /// Does what SwapSequence decides: starts, promotes and ends processes, and collects what it decides by. A
-/// stage is compared here, frame by frame; every other service compares itself and reports in its heartbeat.
+/// stage is compared here, batch by batch; every other service compares itself and reports in its heartbeat.
 /// Whatever goes wrong, the old one serves.
 class Swap {
  public:
@@ -59,13 +59,13 @@ class Swap {
   idl::service::SwapRequest request_;
   Comparison comparison_;
   std::string standby_topic_;
-  std::optional<stream::FrameReader<idl::stream::AxisFrame>> originals_, shadows_;
-  stream::FrameReader<idl::stream::FeedbackFrame> feedback_;
+  std::optional<stream::BatchReader<idl::stream::AxisBatch>> originals_, standby_;
+  stream::BatchReader<idl::stream::Feedback> feedback_;
   bus::Reader<idl::channel::ChannelState> channels_;
   AlarmsOfServices alarms_;
   bus::Writer<idl::service::Promotion> promotions_;
   std::map<std::uint16_t, idl::channel::RunState> run_states_;
-  stream::ShadowComparison frames_;
+  stream::BatchComparison batches_;
   std::uint64_t executed_ = 0, tick_ = 0, promoted_cycle_ = 0;
   double began_ = 0, moved_ = 0;
   bool succeeded_ = false;

@@ -99,7 +99,7 @@ SwapStep SwapSequence::await_end(const SwapView& view) {
     killed_ = true;
     return {SwapAction::kill_old};
   }
-  if (comparison_ == Comparison::frames) return {SwapAction::succeed};
+  if (comparison_ == Comparison::batches) return {SwapAction::succeed};
   enter(Phase::taking_over, view.now);
   return {SwapAction::promote_new};
 }

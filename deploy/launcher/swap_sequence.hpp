@@ -11,9 +11,9 @@ namespace trunnion::launcher {
 
 /// How the new process is compared with the one it is to replace.
 enum class Comparison {
-  frames,  ///< a stage: its frames beside those of the stream; afterwards both take part for a moment
-  ticks,   ///< the PLC: it counts the ticks in which it has done the same
-  once     ///< any other: it reports once that nothing differs; one that compares nothing differs in nothing
+  batches,  ///< a stage: its batches beside those of the stream; afterwards both take part for a moment
+  ticks,    ///< the PLC: it counts the ticks in which it has done the same
+  once      ///< any other: it reports once that nothing differs; one that compares nothing differs in nothing
 };
 
 /// What the launcher knows when it asks for the next step.

@@ -14,9 +14,14 @@ def escape(text): return re.sub(r"^([.'])", r"\\&\1", text.replace("\\", "\\e").
 
 
 def subcommands(text):
-    """Names under the heading Subcommands of CLI11's help, which indents them by two blanks."""
-    part = text.split("Subcommands:\n", 1)
-    return [m.group(1) for m in re.finditer(r"^  (\S+)", part[1], re.M)] if len(part) == 2 else []
+    """Names under the groups of commands of CLI11's help, which indents them by two blanks. A heading follows an empty line;
+    one within a footer, as of the help of channel, does not."""
+    names, commands, empty = [], False, False
+    for line in text.splitlines():
+        if line and not line[0].isspace(): commands = empty and line.endswith(":") and line not in ("Options:", "Positionals:")
+        elif commands and (name := re.match(r"  (\S+)", line)): names.append(name[1])
+        empty = not line
+    return names
 
 
 def sections(words):

@@ -88,15 +88,15 @@ cat > "$root/tmp/other/main.cpp" <<'CPP'
 
 class Other : public trunnion::service::Service {
  public:
-  explicit Other(trunnion::service::Node& node) : feedback_(node.bus().reader(trunnion::topics::feedback_frame)) {}
+  explicit Other(trunnion::service::Node& node) : feedback_(node.bus().reader(trunnion::topics::feedback)) {}
   void pump() override {
-    while (feedback_.take(frame_)) ++taken_;
+    while (feedback_.take(batch_)) ++taken_;
   }
   trunnion::service::Health health() const override { return {}; }
 
  private:
-  trunnion::bus::Reader<trunnion::idl::stream::FeedbackFrame> feedback_;
-  trunnion::idl::stream::FeedbackFrame frame_;
+  trunnion::bus::Reader<trunnion::idl::stream::Feedback> feedback_;
+  trunnion::idl::stream::Feedback batch_;
   int taken_ = 0;
 };
 

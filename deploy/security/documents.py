@@ -3,7 +3,7 @@
 """Writes the DDS Security documents of a cluster from idl/topics.yaml: the governance and, for every identity, its name and
 its permissions. deploy/security/make_certificates.sh signs them.
 
-An identity is a service or an observer of libs/machine/services.yaml on one vendor. What it may write and read is what
+An identity is a service or an observer of libs/machine/machine/services.yaml on one vendor. What it may write and read is what
 topics.yaml says, where `all` is every service; observers may read everything. Everything else is denied.
 """
 import argparse, datetime, hashlib, os
@@ -11,7 +11,7 @@ import yaml
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 REGISTRY = os.path.join(HERE, "services.yaml")  # installed; else that of the sources
-if not os.path.exists(REGISTRY): REGISTRY = os.path.join(HERE, "..", "..", "libs", "machine", "services.yaml")
+if not os.path.exists(REGISTRY): REGISTRY = os.path.join(HERE, "..", "..", "libs", "machine", "machine", "services.yaml")
 VENDORS = {"cyclonedds": 0, "fastdds": 1}
 SCHEMA = 'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_'
 
@@ -70,7 +70,7 @@ def permissions(identity, observes, name, topics, suffix, days):
             if identity in t[side] or ("all" in t[side] and not observes) or (side == "readers" and observes):
                 names.append(t["name"])
                 # A stage that is to replace another writes beside it, for the launcher to compare.
-                if t["qos"] == "frame" and (side == "writers" or identity == "deploy"): names.append(t["name"] + suffix)
+                if t["qos"] == "batch" and (side == "writers" or identity == "deploy"): names.append(t["name"] + suffix)
         verb = "publish" if side == "writers" else "subscribe"
         lines = "".join(f"            <topic>{n}</topic>\n" for n in names)
         return f"        <{verb}>\n          <topics>\n{lines}          </topics>\n        </{verb}>\n" if names else ""

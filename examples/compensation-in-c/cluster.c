@@ -98,10 +98,10 @@ int cluster_open(struct cluster *c, const struct options *o) {
   c->parameters = make_reader(c, &trunnion_parameters_ParameterSet_desc, TRUNNION_TYPE_PARAMETER_SET,
                               TRUNNION_TOPIC_PARAMETER_SET, 1);
   c->promotions = make_reader(c, &trunnion_service_Promotion_desc, TRUNNION_TYPE_PROMOTION, TRUNNION_TOPIC_PROMOTION, 1);
-  c->feedback = make_reader(c, &trunnion_stream_FeedbackFrame_desc, TRUNNION_TYPE_FEEDBACK_FRAME,
-                            TRUNNION_TOPIC_FEEDBACK_FRAME, 0);
-  c->input = make_reader(c, &trunnion_stream_AxisFrame_desc, TRUNNION_TYPE_KINEMATICS_FRAME,
-                         TRUNNION_TOPIC_KINEMATICS_FRAME, 0);
+  c->feedback = make_reader(c, &trunnion_stream_Feedback_desc, TRUNNION_TYPE_FEEDBACK,
+                            TRUNNION_TOPIC_FEEDBACK, 0);
+  c->input = make_reader(c, &trunnion_stream_AxisBatch_desc, TRUNNION_TYPE_KINEMATICS_BATCH,
+                         TRUNNION_TOPIC_KINEMATICS_BATCH, 0);
   return c->announcement < 0 || c->state < 0 || c->alarm < 0 || c->progress < 0 || c->parameters < 0 || c->promotions < 0 ||
                  c->feedback < 0 || c->input < 0
              ? -1
@@ -110,8 +110,8 @@ int cluster_open(struct cluster *c, const struct options *o) {
 
 int cluster_open_output(struct cluster *c, int standby) {
   if (c->output > 0) dds_delete(c->output);
-  c->output = make_writer(c, &trunnion_stream_AxisFrame_desc, TRUNNION_TYPE_COMPENSATION_FRAME,
-                          standby ? TRUNNION_TOPIC_COMPENSATION_FRAME TRUNNION_STANDBY_SUFFIX : TRUNNION_TOPIC_COMPENSATION_FRAME,
+  c->output = make_writer(c, &trunnion_stream_AxisBatch_desc, TRUNNION_TYPE_COMPENSATION_BATCH,
+                          standby ? TRUNNION_TOPIC_COMPENSATION_BATCH TRUNNION_STANDBY_SUFFIX : TRUNNION_TOPIC_COMPENSATION_BATCH,
                           stream_depth);
   return c->output < 0 ? -1 : 0;
 }

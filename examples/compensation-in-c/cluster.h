@@ -12,7 +12,7 @@ struct options {
   unsigned instance, replica, domain;
   const char *machine;
   const char *interface_address, *peers; /* IPv4 addresses, the second separated by commas */
-  int multicast, virtual_time, parent_bound, shadow;
+  int multicast, virtual_time, parent_bound, standby;
 };
 
 struct cluster {
@@ -23,7 +23,7 @@ struct cluster {
 
 /* Returns 0, or -1 with a line on stderr. */
 int cluster_open(struct cluster *c, const struct options *o);
-/* The writer of the compensated frames: into the stream, or beside it on standby. */
+/* The writer of the compensated batches: into the stream, or beside it on standby. */
 int cluster_open_output(struct cluster *c, int standby);
 void cluster_close(struct cluster *c);
 void cluster_announce(const struct cluster *c, const struct options *o);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* One channel of the stream: its frames in order, where to begin, and the compensation of it. */
+/* One channel of the stream: its batches in order, where to begin, and the compensation of it. */
 #ifndef LANE_H
 #define LANE_H
 
@@ -9,10 +9,10 @@
 #include "stream.h"
 
 #define STAGE trunnion_stream_COMPENSATION
-enum { FRAMES = 1024, MAXIMUM_STATES = 8 };
+enum { BATCHES = 1024, MAXIMUM_STATES = 8 };
 
 struct lane {
-  trunnion_stream_AxisFrame frames[FRAMES]; /* by first cycle; a frame has a `count` when it is there */
+  trunnion_stream_AxisBatch batches[BATCHES]; /* by first cycle; a batch has a `count` when it is there */
   uint32_t epoch, newest_epoch, start_epoch;
   uint64_t next, newest, start;
   int in_step, settled, has_start;
@@ -27,13 +27,13 @@ struct lane {
   int told_in_step;
 };
 
-/* Takes `frame` by exchanging it with an old one; what is void or known is left. */
-void lane_put(struct lane *l, trunnion_stream_AxisFrame *frame);
-/* The frame to compute next, or NULL. */
-const trunnion_stream_AxisFrame *lane_peek(struct lane *l);
-/* Goes on from the consistent cut that the drive echoes, once the frame behind it is here. */
+/* Takes `batch` by exchanging it with an old one; what is void or known is left. */
+void lane_put(struct lane *l, trunnion_stream_AxisBatch *batch);
+/* The batch to compute next, or NULL. */
+const trunnion_stream_AxisBatch *lane_peek(struct lane *l);
+/* Goes on from the consistent cut that the drive echoes, once the batch behind it is here. */
 void lane_join(struct lane *l, const trunnion_stream_ChannelEcho *echo);
-/* A later frame is here while the next one is missing. */
+/* A later batch is here while the next one is missing. */
 int lane_gap(struct lane *l);
 
 const trunnion_stream_StageState *find_state(const dds_sequence_trunnion_stream_StageState *states,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The stage `compensation` of the stream in plain C: kinematics' frames in, compensated frames out. */
+/* The stage `compensation` of the stream in plain C: kinematics' batches in, compensated batches out. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,15 +18,15 @@ struct service {
   struct options options;
   struct cluster cluster;
   trunnion_parameters_ParameterSet incoming, newest, previous;
-  trunnion_stream_FeedbackFrame feedback;
-  trunnion_stream_AxisFrame spare, out;
+  trunnion_stream_Feedback feedback;
+  trunnion_stream_AxisBatch spare, out;
   trunnion_stream_StageState states[MAXIMUM_STATES];
   double own_state[MAXIMUM_AXES * STATE_PER_AXIS], setpoints[2048];
   struct lane lanes[LANES];
   int used[LANES], have_feedback, standby;
-  uint64_t frames_in, frames_out, frames_lost, beats, lead;
+  uint64_t messages_in, messages_out, cycles_lost, beats, lead;
   double started, beaten_at, unknown_since;
-  uint64_t frames_beaten;
+  uint64_t messages_beaten;
   int last_active;
 };
 
@@ -44,7 +44,7 @@ static double now_seconds(void) {
 
 static int usage(const char *what) {
   fprintf(stderr, "compensation-in-c: %s\nOptions as of every service: --machine --state --instance --replica --channel "
-                  "--domain --vendor --interface --peers --multicast --virtual-time --parent-bound --shadow\n", what);
+                  "--domain --vendor --interface --peers --multicast --virtual-time --parent-bound --standby\n", what);
   return 1;
 }
 
@@ -56,8 +56,8 @@ static int parse(struct options *o, int argc, char **argv) {
       o->virtual_time = 1;
     } else if (strcmp(name, "--parent-bound") == 0) {
       o->parent_bound = 1;
-    } else if (strcmp(name, "--shadow") == 0) {
-      o->shadow = 1;
+    } else if (strcmp(name, "--standby") == 0) {
+      o->standby = 1;
     } else if (strcmp(name, "--multicast") == 0) {
       o->multicast = 1;
     } else if (value == NULL) {
@@ -94,13 +94,13 @@ static void raise_unknown_revision(const struct service *s, uint16_t channel, ui
   alarm.instance = s->options.instance, alarm.number = ALARM_REVISION_UNKNOWN, alarm.part = channel;
   alarm.active = true, alarm.severity = trunnion_service_ERROR, alarm.reaction = trunnion_service_AXIS_STOP;
   strcpy(alarm.source, "compensation");
-  snprintf(alarm.text, sizeof alarm.text, "Frames are made with parameter revision %llu, which has not arrived",
+  snprintf(alarm.text, sizeof alarm.text, "Batches are made with parameter revision %llu, which has not arrived",
            (unsigned long long)revision);
   alarm.occurrences = 1;
   if (!s->standby) dds_write(s->cluster.alarm, &alarm);
 }
 
-/* The core is configured with the revision of the frame; its state survives that. 0 when it must wait. */
+/* The core is configured with the revision of the batch; its state survives that. 0 when it must wait. */
 static int use_revision(struct service *s, struct lane *l, uint16_t channel, uint64_t revision) {
   double kept[MAXIMUM_AXES * STATE_PER_AXIS];
   const trunnion_parameters_ParameterSet *set = find_revision(s, revision);
@@ -126,7 +126,7 @@ static int use_revision(struct service *s, struct lane *l, uint16_t channel, uin
 }
 
 /* The states that came with the input, and this stage's in the place it has or behind them. */
-static void fill_states(struct service *s, const trunnion_stream_AxisFrame *in, const struct lane *l) {
+static void fill_states(struct service *s, const trunnion_stream_AxisBatch *in, const struct lane *l) {
   uint32_t count = in->states._length < MAXIMUM_STATES - 1 ? in->states._length : MAXIMUM_STATES - 1;
   uint32_t own = count;
   for (uint32_t i = 0; i < count; ++i) {
@@ -146,12 +146,12 @@ static void fill_states(struct service *s, const trunnion_stream_AxisFrame *in, 
 
 static void run_lane(struct service *s, uint16_t channel) {
   struct lane *l = &s->lanes[channel];
-  const trunnion_stream_AxisFrame *in;
+  const trunnion_stream_AxisBatch *in;
   (void)lane_peek(l); /* a start that is here takes it into step */
   for (uint32_t i = 0; !l->in_step && i < s->feedback.channels._length; ++i)
     if (s->feedback.channels._buffer[i].channel == channel) lane_join(l, &s->feedback.channels._buffer[i]);
   while ((in = lane_peek(l)) != NULL) {
-    trunnion_stream_AxisFrame *out = &s->out;
+    trunnion_stream_AxisBatch *out = &s->out;
     const size_t columns = in->axes._length;
     if (!use_revision(s, l, channel, in->revision)) return;
     if (in->setpoints._length != in->count * columns || in->setpoints._length > 2048) return;
@@ -167,7 +167,7 @@ static void run_lane(struct service *s, uint16_t channel) {
     out->setpoints._buffer = s->setpoints;
     fill_states(s, in, l);
     dds_write(s->cluster.output, out);
-    ++s->frames_out;
+    ++s->messages_out;
     l->next = in->first + in->count;
     l->gap_since = 0;
   }
@@ -175,7 +175,7 @@ static void run_lane(struct service *s, uint16_t channel) {
     const double now = now_seconds();
     if (l->gap_since == 0) l->gap_since = now;
     if (now - l->gap_since > 0.02) { /* it will not come any more: go on from the cut */
-      ++s->frames_lost;
+      ++s->cycles_lost;
       l->in_step = l->settled = 0;
       l->gap_since = 0;
     }
@@ -213,8 +213,8 @@ static void beat(struct service *s) {
                        : !s->have_feedback    ? "waiting for the drive"
                                               : "");
   state.beats = ++s->beats, state.uptime = now - s->started;
-  state.frames_in = s->frames_in, state.frames_out = s->frames_out, state.frames_lost = s->frames_lost;
-  state.frames_per_second = s->beaten_at > 0 ? (double)(s->frames_out - s->frames_beaten) / (now - s->beaten_at) : 0;
+  state.messages_in = s->messages_in, state.messages_out = s->messages_out, state.cycles_lost = s->cycles_lost;
+  state.messages_per_second = s->beaten_at > 0 ? (double)(s->messages_out - s->messages_beaten) / (now - s->beaten_at) : 0;
   state.revision = s->newest.revision;
   state.in_step = !s->standby || (s->cluster.output > 0 && s->have_feedback);
   for (int c = 0; c < LANES; ++c)
@@ -223,7 +223,7 @@ static void beat(struct service *s) {
                   : state.in_step ? trunnion_service_MATCHING
                                   : trunnion_service_JOINING;
   dds_write(s->cluster.state, &state);
-  s->beaten_at = now, s->frames_beaten = s->frames_out, s->last_active = active;
+  s->beaten_at = now, s->messages_beaten = s->messages_out, s->last_active = active;
 }
 
 static void take_parameters(struct service *s) {
@@ -264,7 +264,7 @@ static int pump(struct service *s) {
       if (s->feedback.channels._buffer[i].channel < LANES) s->used[s->feedback.channels._buffer[i].channel] = 1;
   }
   while (cluster_take(s->cluster.input, &s->spare)) {
-    ++s->frames_in;
+    ++s->messages_in;
     if (s->spare.channel >= LANES) continue;
     s->used[s->spare.channel] = 1;
     lane_put(&s->lanes[s->spare.channel], &s->spare);
@@ -289,7 +289,7 @@ int main(int argc, char **argv) {
   sigaction(SIGINT, &action, NULL);
   if (s.options.parent_bound) prctl(PR_SET_PDEATHSIG, SIGTERM);
   s.started = now_seconds();
-  s.standby = s.options.shadow;
+  s.standby = s.options.standby;
   s.last_active = -1;
   if (cluster_open(&s.cluster, &s.options) != 0) return 1;
   cluster_announce(&s.cluster, &s.options);

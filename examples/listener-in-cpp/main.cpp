@@ -22,20 +22,20 @@ int main(int argc, char** argv) {
   auto* participant =
       factory->create_participant_with_profile(static_cast<std::uint32_t>(std::atoi(argv[2])), "trunnion");
   if (participant == nullptr) return std::fputs("listener-in-cpp: no participant\n", stderr), 1;
-  dds::TypeSupport type(new trunnion::bus::ContractType(topics::feedback_frame));
+  dds::TypeSupport type(new trunnion::bus::ContractType(topics::feedback));
   type.register_type(participant);
   auto* topic =
-      participant->create_topic(topics::feedback_frame.name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+      participant->create_topic(topics::feedback.name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
   auto* reader = participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT)
-                     ->create_datareader_with_profile(topic, "feedback_frame");
+                     ->create_datareader_with_profile(topic, "feedback");
   if (reader == nullptr) return std::fputs("listener-in-cpp: no reader\n", stderr), 1;
-  trunnion::idl::stream::FeedbackFrame frame;
+  trunnion::idl::stream::Feedback batch;
   for (dds::SampleInfo info; reader->wait_for_unread_message({3600, 0}); std::fflush(stdout))
-    while (reader->take_next_sample(&frame, &info) == ReturnCode_t::RETCODE_OK)
-      for (std::uint32_t row = 0; info.valid_data && row < frame.count; ++row) {
-        std::printf("%llu", static_cast<unsigned long long>(frame.first + row));
-        for (std::uint32_t axis = 0; axis < frame.axis_count; ++axis)
-          std::printf(" %.17g", frame.commanded[row * frame.axis_count + axis]);
+    while (reader->take_next_sample(&batch, &info) == ReturnCode_t::RETCODE_OK)
+      for (std::uint32_t row = 0; info.valid_data && row < batch.count; ++row) {
+        std::printf("%llu", static_cast<unsigned long long>(batch.first + row));
+        for (std::uint32_t axis = 0; axis < batch.axis_count; ++axis)
+          std::printf(" %.17g", batch.commanded[row * batch.axis_count + axis]);
         std::printf("\n");
       }
   factory->delete_participant(participant);

@@ -18,5 +18,5 @@ if "$trunnion" test "$work/suite.yaml" --junit "$work/wrong.xml" --html "$work/w
   echo "a stage that is wrong in one bit passed" >&2
   exit 1
 fi
-failures=$(grep -c "first difference: compensation_frame" "$work/wrong.xml")
+failures=$(grep -c "first difference: compensation_batch" "$work/wrong.xml")
 [[ $failures -ge 1 ]] && [[ -n $(sed -n '/<svg/p' "$work/wrong.html") ]]

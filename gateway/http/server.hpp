@@ -7,8 +7,8 @@
 #include <string>
 
 #include "api.hpp"
+#include "core/site.hpp"
 #include "http/tls_certificate.hpp"
-#include "src/site.hpp"
 
 namespace trunnion::gateway {
 
@@ -22,7 +22,7 @@ class HttpServer {
   /// Ends the thread; nothing is answered afterwards. Answers may still be handed to sessions until it is
   /// destroyed.
   void stop();
-  /// From any thread: the mailbox has a new snapshot for the streams.
+  /// From any thread: the mailbox has a new state for the streams.
   void show();
   /// WebSocket clients now.
   std::size_t clients() const;

@@ -7,12 +7,12 @@
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 
+#include "core/compression.hpp"
+#include "core/requests.hpp"
+#include "core/rights.hpp"
+#include "core/site.hpp"
 #include "http/session_parts.hpp"
 #include "http/watch.hpp"
-#include "src/compression.hpp"
-#include "src/requests.hpp"
-#include "src/rights.hpp"
-#include "src/site.hpp"
 
 namespace trunnion::gateway {
 
@@ -319,8 +319,8 @@ void HttpSession::begin_upload() {
 }
 
 std::string HttpSession::changed_program() const {
-  const auto snapshot = api_.mailbox().newest();
-  return condition_.failed(snapshot ? snapshot->programs.get() : nullptr, match_.parts[0],
+  const auto cluster = api_.mailbox().newest();
+  return condition_.failed(cluster ? cluster->programs.get() : nullptr, match_.parts[0],
                            api_.stored_lately(match_.parts[0]));
 }
 

@@ -13,11 +13,11 @@
 #include <memory>
 
 #include "api.hpp"
+#include "core/connections.hpp"
+#include "core/precondition.hpp"
+#include "core/site.hpp"
 #include "http/stream.hpp"
 #include "http/transport.hpp"
-#include "src/connections.hpp"
-#include "src/precondition.hpp"
-#include "src/site.hpp"
 
 namespace trunnion::gateway {
 

@@ -3,10 +3,10 @@
 #include <boost/asio/post.hpp>
 #include <boost/beast/http/write.hpp>
 
+#include "core/requests.hpp"
 #include "http/session.hpp"
 #include "http/session_parts.hpp"
 #include "machine/alarm_constants.hpp"
-#include "src/requests.hpp"
 
 namespace trunnion::gateway {
 

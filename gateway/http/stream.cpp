@@ -8,9 +8,9 @@
 
 #include "bus/json.hpp"
 #include "commands/command_table.hpp"
-#include "src/journal.hpp"
-#include "src/merge_patch.hpp"
-#include "src/router.hpp"
+#include "core/merge_patch.hpp"
+#include "core/operator_journal.hpp"
+#include "core/router.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -40,9 +40,9 @@ void StreamHub::start() {
 }
 
 void StreamHub::show() {
-  auto snapshot = mailbox_.newest();
-  if (!snapshot || snapshot == newest_) return;
-  newest_ = std::move(snapshot);
+  auto cluster = mailbox_.newest();
+  if (!cluster || cluster == newest_) return;
+  newest_ = std::move(cluster);
   cache_.clear();
   const auto all = viewers_;
   for (const auto& viewer : all) viewer->offer(newest_);
@@ -72,7 +72,7 @@ void StreamHub::leave(const std::shared_ptr<Viewer>& viewer) {
   count_ = viewers_.size();
 }
 
-std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<const Snapshot>& from,
+std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<const ClusterState>& from,
                                                       bool heartbeat) {
   const std::uint64_t since = from ? from->sequence : 0;
   auto& cached = cache_[since];

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "contracts/types.hpp"
-#include "src/snapshot.hpp"
+#include "core/cluster_state.hpp"
 
 namespace trunnion::gateway {
 
@@ -23,7 +23,7 @@ class Viewer {
   virtual ~Viewer() = default;
   const std::string& peer() const { return visitor_.peer; }
   /// There is something new.
-  virtual void offer(const std::shared_ptr<const Snapshot>& newest) = 0;
+  virtual void offer(const std::shared_ptr<const ClusterState>& newest) = 0;
   /// Once a second.
   virtual void each_second() = 0;
   /// Another stream takes its place.

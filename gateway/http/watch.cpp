@@ -6,9 +6,9 @@
 #include <boost/asio/post.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 
+#include "core/plc_requests.hpp"
 #include "http/stream.hpp"
 #include "service/request.hpp"
-#include "src/plc_requests.hpp"
 
 namespace trunnion::gateway {
 
@@ -100,7 +100,7 @@ void WatchSession::answered(const Request& asked, const std::optional<Reply>& re
   if (const auto& newest = hub_.newest()) offer(newest);
 }
 
-void WatchSession::offer(const std::shared_ptr<const Snapshot>& newest) {
+void WatchSession::offer(const std::shared_ptr<const ClusterState>& newest) {
   if (!slot_ || outgoing_.size() > 1) return;
   const auto found = newest->plc_watched.find(*slot_);
   if (found == newest->plc_watched.end() || found->second->client != client_) return;

@@ -14,7 +14,7 @@
 #include "api.hpp"
 #include "http/transport.hpp"
 #include "http/viewer.hpp"
-#include "plc_online/shown_variables.hpp"
+#include "plc/online/shown_variables.hpp"
 
 namespace trunnion::gateway {
 
@@ -24,7 +24,7 @@ class WatchSession : public Viewer, public std::enable_shared_from_this<WatchSes
  public:
   WatchSession(Transport&& stream, StreamHub& hub, Api& api, Visitor visitor);
   void accept(const boost::beast::http::request<boost::beast::http::string_body>& request);
-  void offer(const std::shared_ptr<const Snapshot>& newest) override;
+  void offer(const std::shared_ptr<const ClusterState>& newest) override;
   void each_second() override;
   void close() override;
 

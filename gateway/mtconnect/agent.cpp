@@ -12,15 +12,15 @@ namespace {
 
 using bus::Json;
 
-MachineShape shape_of(const AgentSettings& settings, const Snapshot& snapshot) {
-  const auto& parameters = *snapshot.values;
+MachineShape shape_of(const AgentSettings& settings, const ClusterState& cluster) {
+  const auto& parameters = *cluster.values;
   MachineShape shape;
   shape.name = settings.machine;
   shape.title = settings.title;
   shape.uuid = settings.machine + "." + settings.computer;
   shape.axes = machine::drive_axes(parameters);
   shape.spindles = machine::spindles(parameters);
-  for (const auto& [number, state] : snapshot.channels) {
+  for (const auto& [number, state] : cluster.channels) {
     auto name = state.name;
     if (name.empty()) name = std::string("channel") + std::to_string(number);
     shape.channels.push_back({number, std::move(name)});
@@ -34,8 +34,8 @@ bool same(const ToolAsset& a, const ToolAsset& b) {
 
 }  // namespace
 
-void Agent::rebuild(const Snapshot& snapshot, const std::string& time) {
-  auto device = device_of(shape_of(settings_, snapshot));
+void Agent::rebuild(const ClusterState& cluster, const std::string& time) {
+  auto device = device_of(shape_of(settings_, cluster));
   if (device_ && *device_ == device) return;
   if (device_) ++rebuilt_;  // its sequence numbers begin again
   device_ = std::move(device);
@@ -68,21 +68,21 @@ void Agent::set(std::uint32_t item, const std::string& value, const std::string&
   buffer_->add(std::move(observation));
 }
 
-void Agent::observe(const Snapshot& snapshot, const std::string& time) {
-  if (!snapshot.parameters || snapshot.channels.size() < settings_.channels) return;
-  if (!device_ || snapshot.parameters->revision != revision_) rebuild(snapshot, time);
-  revision_ = snapshot.parameters->revision;
-  const ValuesOf values(snapshot, settings_.channel_of);
+void Agent::observe(const ClusterState& cluster, const std::string& time) {
+  if (!cluster.parameters || cluster.channels.size() < settings_.channels) return;
+  if (!device_ || cluster.parameters->revision != revision_) rebuild(cluster, time);
+  revision_ = cluster.parameters->revision;
+  const ValuesOf values(cluster, settings_.channel_of);
   for (std::uint32_t i = 0; i < items_.size(); ++i)
     if (const auto value = values.of(*items_[i])) set(i, *value, time);
-  observe_tools(snapshot, time);
-  observe_conditions(snapshot, time);
+  observe_tools(cluster, time);
+  observe_conditions(cluster, time);
 }
 
-void Agent::observe_tools(const Snapshot& snapshot, const std::string& time) {
-  if (!snapshot.tools || snapshot.tools == table_) return;
+void Agent::observe_tools(const ClusterState& cluster, const std::string& time) {
+  if (!cluster.tools || cluster.tools == table_) return;
   const bool first = table_ == nullptr;
-  table_ = snapshot.tools;
+  table_ = cluster.tools;
   const auto report = [&](Quantity quantity, const ToolAsset& tool) {
     for (std::uint32_t i = 0; i < items_.size(); ++i)
       if (!first && items_[i]->quantity == quantity) {
@@ -110,14 +110,14 @@ void Agent::observe_tools(const Snapshot& snapshot, const std::string& time) {
     one = one->second.removed ? tools_.erase(one) : std::next(one);
 }
 
-void Agent::observe_conditions(const Snapshot& snapshot, const std::string& time) {
+void Agent::observe_conditions(const ClusterState& cluster, const std::string& time) {
   std::map<std::pair<std::uint32_t, std::string>, Active> now;
   const auto item_of = [&](const FoundCondition& found) -> std::optional<std::uint32_t> {
     for (std::uint32_t i = 0; i < items_.size(); ++i)
       if (items_[i]->quantity == found.quantity && items_[i]->part == found.part) return i;
     return {};
   };
-  for (const auto& found : conditions_of(snapshot, settings_.channel_of))
+  for (const auto& found : conditions_of(cluster, settings_.channel_of))
     if (const auto item = item_of(found))
       now[{*item, found.code}] = {found.fault ? Level::fault : Level::warning, found.text, found.severity};
   for (const auto& [key, before] : active_)

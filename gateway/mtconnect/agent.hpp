@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "core/cluster_state.hpp"
 #include "mtconnect/documents.hpp"
 #include "mtconnect/request.hpp"
-#include "src/snapshot.hpp"
 
 namespace trunnion::gateway::mtconnect {
 
@@ -27,7 +27,7 @@ class Agent {
   explicit Agent(AgentSettings settings) : settings_(std::move(settings)) {}
 
   /// What has changed since the state before becomes observations of this time (ISO 8601, UTC, ms).
-  void observe(const Snapshot& snapshot, const std::string& time);
+  void observe(const ClusterState& cluster, const std::string& time);
 
   /// The document that answers `request`. Throws RequestError.
   std::string answer(const Request& request, const std::string& now) const;
@@ -48,9 +48,9 @@ class Agent {
   const Buffer& buffer() const { return *buffer_; }
 
  private:
-  void rebuild(const Snapshot& snapshot, const std::string& time);
-  void observe_tools(const Snapshot& snapshot, const std::string& time);
-  void observe_conditions(const Snapshot& snapshot, const std::string& time);
+  void rebuild(const ClusterState& cluster, const std::string& time);
+  void observe_tools(const ClusterState& cluster, const std::string& time);
+  void observe_conditions(const ClusterState& cluster, const std::string& time);
   void set(std::uint32_t item, const std::string& value, const std::string& time);
   std::string assets(const Request& request, const std::string& now) const;
   AgentHeader header(const std::string& now) const;

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
+#include "core/router.hpp"
 #include "mtconnect/documents.hpp"
-#include "src/router.hpp"
 
 namespace trunnion::gateway::mtconnect {
 namespace {

@@ -15,9 +15,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/connections.hpp"
 #include "http/listen.hpp"
 #include "http/transport.hpp"
-#include "src/connections.hpp"
 
 namespace trunnion::gateway::mtconnect {
 
@@ -36,7 +36,7 @@ constexpr std::size_t most_sessions = 64;
 constexpr rlim_t descriptors_for_http = 16;  // the last ones: a stop order comes by HTTP
 constexpr const char* boundary = "trunnion-mtconnect-part";
 
-std::string time_text() {
+std::string now() {
   const auto time = std::chrono::system_clock::now().time_since_epoch();
   const auto ms = std::chrono::duration_cast<milliseconds>(time).count();
   const std::time_t seconds = ms / 1000;
@@ -76,7 +76,7 @@ class Session : public std::enable_shared_from_this<Session> {
  private:
   void refuse(unsigned status, const char* why) {
     keep_alive_ = false;
-    send(status, agent_.error({status, "INVALID_REQUEST", why}, time_text()));
+    send(status, agent_.error({status, "INVALID_REQUEST", why}, now()));
   }
 
   void answer() {
@@ -87,9 +87,9 @@ class Session : public std::enable_shared_from_this<Session> {
       const std::string method(message.method_string()), target(message.target());
       request_ = agent_.parse(method, target);
       if (request_.interval) return begin_stream();
-      send(200, agent_.answer(request_, time_text()));
+      send(200, agent_.answer(request_, now()));
     } catch (const RequestError& error) {
-      send(error.status, agent_.error(error, time_text()));
+      send(error.status, agent_.error(error, now()));
     }
   }
 
@@ -120,7 +120,7 @@ class Session : public std::enable_shared_from_this<Session> {
                                  "the machine has not published its parameters and channels yet");
     next_ = request_.from.value_or(buffer.first());
     // Refused before the stream begins.
-    auto part = agent_.part(request_, next_, time_text());
+    auto part = agent_.part(request_, next_, now());
     const std::string head =
         std::string("HTTP/1.1 200 OK\r\nConnection: close\r\nCache-Control: no-store\r\n") +
         "Content-Type: multipart/x-mixed-replace;boundary=" + boundary + "\r\n\r\n";
@@ -154,7 +154,7 @@ class Session : public std::enable_shared_from_this<Session> {
       const auto instance_changed = next_ > agent_.buffer().next();
       if (instance_changed) next_ = agent_.buffer().first();
       const auto before = next_;
-      auto part = agent_.part(request_, next_, time_text());
+      auto part = agent_.part(request_, next_, now());
       if (part.any || request_.kind == Kind::current ||
           Clock::now() - sent_ >= milliseconds(request_.heartbeat))
         return send_part("", std::move(part));
@@ -167,7 +167,7 @@ class Session : public std::enable_shared_from_this<Session> {
     } catch (const RequestError& error) {
       // The client is so slow that the buffer has lost what it is to have next.
       text_ = std::string("--") + boundary + "\r\nContent-Type: text/xml\r\n\r\n" +
-              agent_.error(error, time_text()) + "\r\n--" + boundary + "--\r\n";
+              agent_.error(error, now()) + "\r\n--" + boundary + "--\r\n";
       net::async_write(stream_, net::buffer(text_),
                        Transferred([self = shared_from_this()](beast::error_code, std::size_t) {
                          self->stream_.finish();
@@ -205,9 +205,9 @@ struct Server::Inside {
   }
 
   void observe() {
-    if (const auto snapshot = mailbox.newest(); snapshot && snapshot != observed) {
-      observed = snapshot;
-      agent.observe(*snapshot, time_text());
+    if (const auto cluster = mailbox.newest(); cluster && cluster != observed) {
+      observed = cluster;
+      agent.observe(*cluster, now());
     }
     timer.expires_after(observed_every);
     timer.async_wait([this](const boost::system::error_code& error) {
@@ -251,7 +251,7 @@ struct Server::Inside {
   net::steady_timer timer, pause{context};
   Mailbox& mailbox;
   Agent agent;
-  std::shared_ptr<const Snapshot> observed;
+  std::shared_ptr<const ClusterState> observed;
   std::vector<std::weak_ptr<Session>> sessions;
   std::thread thread;
 };

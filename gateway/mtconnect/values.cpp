@@ -73,10 +73,10 @@ std::string path_position(const idl::channel::ChannelState& state) {
 
 }  // namespace
 
-ValuesOf::ValuesOf(const Snapshot& snapshot, const std::map<std::uint32_t, std::uint32_t>& channel_of)
-    : snapshot_(snapshot) {
+ValuesOf::ValuesOf(const ClusterState& cluster, const std::map<std::uint32_t, std::uint32_t>& channel_of)
+    : cluster_(cluster) {
   std::map<std::string, bool> alive;
-  for (const auto& [instance, service] : part_of(snapshot.document, "services").items()) {
+  for (const auto& [instance, service] : part_of(cluster.document, "services").items()) {
     const bool here = service.value("alive", false);
     const auto name = service.value("service", "");
     alive[name] = alive[name] || here;
@@ -91,7 +91,7 @@ ValuesOf::ValuesOf(const Snapshot& snapshot, const std::map<std::uint32_t, std::
 
 std::optional<std::string> ValuesOf::of_axis(const DataItem& item) const {
   if (item.quantity == Quantity::rotary_mode) return "CONTOUR";
-  const auto& axis = part_of(part_of(snapshot_.document, "axes"), std::to_string(item.part));
+  const auto& axis = part_of(part_of(cluster_.document, "axes"), std::to_string(item.part));
   if (!drive_ || axis.empty()) return unavailable;
   switch (item.quantity) {
     case Quantity::position:
@@ -110,20 +110,20 @@ std::optional<std::string> ValuesOf::of_axis(const DataItem& item) const {
 
 std::optional<std::string> ValuesOf::of_spindle(const DataItem& item) const {
   if (item.quantity == Quantity::spindle_override) {
-    if (snapshot_.channels.empty()) return unavailable;
-    return number(100 * snapshot_.channels.begin()->second.spindle_override, 1);
+    if (cluster_.channels.empty()) return unavailable;
+    return number(100 * cluster_.channels.begin()->second.spindle_override, 1);
   }
   const bool actual = item.quantity == Quantity::spindle_speed;
-  const auto& source = part_of(snapshot_.document, actual ? "drive" : "plc");
+  const auto& source = part_of(cluster_.document, actual ? "drive" : "plc");
   const auto speeds = source.find("spindle_speed");
   if (!(actual ? drive_ : plc_) || speeds == source.end() || item.part >= speeds->size()) return unavailable;
   return number((*speeds)[item.part].get<double>(), 1);
 }
 
 std::optional<std::string> ValuesOf::of_channel(const DataItem& item) const {
-  const auto found = snapshot_.channels.find(static_cast<std::uint16_t>(item.part));
+  const auto found = cluster_.channels.find(static_cast<std::uint16_t>(item.part));
   const auto silent = silent_channels_.find(item.part);
-  if (found == snapshot_.channels.end() || (silent != silent_channels_.end() && silent->second))
+  if (found == cluster_.channels.end() || (silent != silent_channels_.end() && silent->second))
     return unavailable;
   const auto& state = found->second;
   switch (item.quantity) {
@@ -150,9 +150,9 @@ std::optional<std::string> ValuesOf::of_channel(const DataItem& item) const {
     case Quantity::tool_number:
       return std::to_string(state.tool);
     case Quantity::tool_asset: {
-      const bool known =
-          snapshot_.tools && std::ranges::any_of(snapshot_.tools->tools,
-                                                 [&](const auto& tool) { return tool.number == state.tool; });
+      const bool known = cluster_.tools && std::ranges::any_of(cluster_.tools->tools, [&](const auto& tool) {
+                           return tool.number == state.tool;
+                         });
       return known ? "T" + std::to_string(state.tool) : std::string();
     }
     default:
@@ -163,9 +163,9 @@ std::optional<std::string> ValuesOf::of_channel(const DataItem& item) const {
 std::optional<std::string> ValuesOf::of(const DataItem& item) const {
   switch (item.quantity) {
     case Quantity::availability:
-      return snapshot_.document.contains("cluster") ? "AVAILABLE" : unavailable;
+      return cluster_.document.contains("cluster") ? "AVAILABLE" : unavailable;
     case Quantity::emergency_stop: {
-      const auto& plc = part_of(snapshot_.document, "plc");
+      const auto& plc = part_of(cluster_.document, "plc");
       if (!plc_ || plc.empty()) return unavailable;
       return plc.value("emergency_stop", false) ? "TRIGGERED" : "ARMED";
     }
@@ -185,10 +185,10 @@ std::optional<std::string> ValuesOf::of(const DataItem& item) const {
   return item.quantity >= Quantity::position ? of_axis(item) : of_channel(item);
 }
 
-std::vector<FoundCondition> conditions_of(const Snapshot& snapshot,
+std::vector<FoundCondition> conditions_of(const ClusterState& cluster,
                                           const std::map<std::uint32_t, std::uint32_t>& channel_of) {
   std::vector<FoundCondition> list;
-  for (const auto& [key, alarm] : part_of(snapshot.document, "alarms").items()) {
+  for (const auto& [key, alarm] : part_of(cluster.document, "alarms").items()) {
     FoundCondition found;
     const auto source = alarm.value("source", "");
     const auto instance = static_cast<std::uint32_t>(member(alarm, "instance")) % generation_step;
@@ -205,7 +205,7 @@ std::vector<FoundCondition> conditions_of(const Snapshot& snapshot,
     found.text = alarm.value("text", "");
     list.push_back(std::move(found));
   }
-  for (const auto& [instance, service] : part_of(snapshot.document, "services").items()) {
+  for (const auto& [instance, service] : part_of(cluster.document, "services").items()) {
     if (service.value("alive", false) || !service.value("expected", false)) continue;
     auto text = service.value("service", "");
     text.append(" (instance ").append(instance).append(") sends no heartbeat");

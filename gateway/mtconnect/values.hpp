@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/cluster_state.hpp"
 #include "mtconnect/device_model.hpp"
-#include "src/snapshot.hpp"
 
 namespace trunnion::gateway::mtconnect {
 
@@ -17,7 +17,7 @@ inline constexpr const char* unavailable = "UNAVAILABLE";
 class ValuesOf {
  public:
   /// `channel_of`: instance of a channel service -> its channel.
-  ValuesOf(const Snapshot& snapshot, const std::map<std::uint32_t, std::uint32_t>& channel_of);
+  ValuesOf(const ClusterState& cluster, const std::map<std::uint32_t, std::uint32_t>& channel_of);
   /// Value of a sample or an event; UNAVAILABLE when the service that knows it is silent. Nothing for a
   /// condition and for what only a change reports.
   std::optional<std::string> of(const DataItem& item) const;
@@ -27,7 +27,7 @@ class ValuesOf {
   std::optional<std::string> of_spindle(const DataItem& item) const;
   std::optional<std::string> of_channel(const DataItem& item) const;
 
-  const Snapshot& snapshot_;
+  const ClusterState& cluster_;
   // A service that has never been heard of is not silent: what it has written counts.
   bool drive_ = true, plc_ = true;
   std::map<std::uint32_t, bool> silent_channels_;
@@ -40,7 +40,7 @@ struct FoundCondition {
   std::string code, severity, text;
   bool fault = false;  ///< else a warning
 };
-std::vector<FoundCondition> conditions_of(const Snapshot& snapshot,
+std::vector<FoundCondition> conditions_of(const ClusterState& cluster,
                                           const std::map<std::uint32_t, std::uint32_t>& channel_of);
 
 }  // namespace trunnion::gateway::mtconnect

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "src/alarm_history.hpp"
+#include "core/alarm_history.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using trunnion::gateway::AlarmHistory;

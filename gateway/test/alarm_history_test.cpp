@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/alarm_history.hpp"
+#include "core/alarm_history.hpp"
 
 #include <gtest/gtest.h>
 

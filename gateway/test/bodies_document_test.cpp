@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/bodies_document.hpp"
+#include "core/bodies_document.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/byte_range.hpp"
+#include "core/byte_range.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/connections.hpp"
+#include "core/connections.hpp"
 
 #include <gtest/gtest.h>
 

@@ -51,7 +51,7 @@ FakeCluster::FakeCluster(const bus::NetworkSettings& network)
       alarm_(bus_.writer(topics::alarm)),
       cluster_(bus_.writer(topics::cluster)),
       channel_state_(bus_.writer(topics::channel_state)),
-      feedback_(bus_.writer(topics::feedback_frame)),
+      feedback_(bus_.writer(topics::feedback)),
       outputs_(bus_.writer(topics::plc_outputs)),
       image_(bus_.writer(topics::plc_image)),
       parameter_set_(bus_.writer(topics::parameter_set)),
@@ -359,31 +359,31 @@ void FakeCluster::publish_motion(double now) {
   last_motion_ = now;
   const bool running = channel.state == idl::channel::RunState::RUNNING;
   channel.feed = running ? 1800 * channel.feed_override : 0;
-  idl::stream::FeedbackFrame frame{};
-  frame.first = cycle_;
-  frame.count = at_rest ? 0 : std::min(64u, static_cast<std::uint32_t>(elapsed * 1000) + 1);
-  if (at_rest) ++frames_at_rest;
-  frame.axis_count = axes;
-  for (std::uint32_t i = 0; i < frame.count; ++i) {
+  idl::stream::Feedback batch{};
+  batch.first = cycle_;
+  batch.count = at_rest ? 0 : std::min(64u, static_cast<std::uint32_t>(elapsed * 1000) + 1);
+  if (at_rest) ++batches_at_rest;
+  batch.axis_count = axes;
+  for (std::uint32_t i = 0; i < batch.count; ++i) {
     if (running)
       path_ += channel.feed_override * 0.001 * 30 / 50;  // 30 mm/s on a radius of 50 mm, in radians
     const auto position = positions();
     for (std::size_t a = 0; a < axes; ++a) {
-      frame.commanded.push_back(position[a]);
-      frame.actual.push_back(position[a] -
+      batch.commanded.push_back(position[a]);
+      batch.actual.push_back(position[a] -
                              (running ? 0.012 * std::sin(path_ * static_cast<double>(a + 1)) : 0));
     }
     ++cycle_;
   }
-  frame.position = positions();
-  if (frame.count > 0) frame.position.assign(frame.actual.end() - axes, frame.actual.end());
-  frame.enabled.assign(axes, 1);
-  frame.spindle_speed = {running ? 7994.0 : 0.0};
-  frame.tick = cycle_;
-  feedback_.write(frame);
+  batch.position = positions();
+  if (batch.count > 0) batch.position.assign(batch.actual.end() - axes, batch.actual.end());
+  batch.enabled.assign(axes, 1);
+  batch.spindle_speed = {running ? 7994.0 : 0.0};
+  batch.tick = cycle_;
+  feedback_.write(batch);
 
   channel.cycle = cycle_;
-  channel.machine = frame.position;
+  channel.machine = batch.position;
   channel.workpiece = channel.machine;
   channel.workpiece[2] += 320.5;
   channel.distance_to_go = {running ? 0.4 : 0, running ? -0.2 : 0, 0, 0, running ? 1.2 : 0};
@@ -401,7 +401,7 @@ void FakeCluster::step() {
     last_beat_ = now;
     ++beat_.beats;
     beat_.uptime = now - started_;
-    beat_.frames_per_second = 250;
+    beat_.messages_per_second = 250;
     service_state_.write(beat_);
   }
 }

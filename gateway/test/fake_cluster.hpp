@@ -31,9 +31,9 @@ class FakeCluster {
   bool channel_is_silent = false;
   /// It does not hear either, until it goes on.
   bool channel_hangs = false;
-  /// The drive executes no cycle, and says so by frames without rows; how many there were.
+  /// The drive executes no cycle, and says so by batches without rows; how many there were.
   bool at_rest = false;
-  std::size_t frames_at_rest = 0;
+  std::size_t batches_at_rest = 0;
   std::map<std::string, std::vector<std::uint8_t>> programs;
   std::uint64_t largest_program = 1u << 30;  ///< bytes for which there is room
   std::map<std::string, int> stored_by;      ///< the role of each program that was stored
@@ -62,7 +62,7 @@ class FakeCluster {
   bus::Writer<idl::service::Alarm> alarm_;
   bus::Writer<idl::service::Cluster> cluster_;
   bus::Writer<idl::channel::ChannelState> channel_state_;
-  bus::Writer<idl::stream::FeedbackFrame> feedback_;
+  bus::Writer<idl::stream::Feedback> feedback_;
   bus::Writer<idl::plc::Outputs> outputs_;
   bus::Writer<idl::plc::Image> image_;
   bus::Writer<idl::parameters::ParameterSet> parameter_set_;

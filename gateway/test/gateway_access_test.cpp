@@ -4,8 +4,8 @@
 
 #include "access/secrets.hpp"
 #include "access/user_file.hpp"
+#include "core/rights.hpp"
 #include "gateway_fixture.hpp"
-#include "src/rights.hpp"
 
 namespace trunnion::gateway {
 namespace {

@@ -22,21 +22,21 @@ void write_recording(const std::string& file) {
   constexpr std::uint16_t axes = 5;
   recording::FileSink sink(file);
   recording::Writer writer(sink, {});
-  const auto* entry = bus::find_topic(topics::feedback_frame.name);
+  const auto* entry = bus::find_topic(topics::feedback.name);
   const auto channel = writer.add_channel(entry->description.name, entry->type, entry->schema);
-  idl::stream::FeedbackFrame frame{};
-  frame.count = batch, frame.axis_count = axes;
-  frame.velocity.assign(axes, 12.5), frame.torque.assign(axes, 0.25);
-  frame.commanded.resize(batch * axes), frame.actual.resize(batch * axes);
-  for (frame.first = 0; frame.first < million; frame.first += batch) {
+  idl::stream::Feedback feedback{};
+  feedback.count = batch, feedback.axis_count = axes;
+  feedback.velocity.assign(axes, 12.5), feedback.torque.assign(axes, 0.25);
+  feedback.commanded.resize(batch * axes), feedback.actual.resize(batch * axes);
+  for (feedback.first = 0; feedback.first < million; feedback.first += batch) {
     for (std::uint64_t i = 0; i < batch * axes; ++i) {
-      const auto cycle = static_cast<double>(frame.first + i / axes);
-      frame.commanded[i] = 100 * std::sin(1e-3 * cycle + static_cast<double>(i % axes));
-      frame.actual[i] = frame.commanded[i] - 0.01;
+      const auto cycle = static_cast<double>(feedback.first + i / axes);
+      feedback.commanded[i] = 100 * std::sin(1e-3 * cycle + static_cast<double>(i % axes));
+      feedback.actual[i] = feedback.commanded[i] - 0.01;
     }
     bus::Bytes message;
-    bus::encode(frame, message);
-    writer.write(channel, frame.first, frame.first, message);
+    bus::encode(feedback, message);
+    writer.write(channel, feedback.first, feedback.first, message);
   }
   writer.finish();
 }

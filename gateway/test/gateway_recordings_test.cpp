@@ -2,9 +2,10 @@
 // Recordings over HTTP, with the real recorder.
 #include <gmock/gmock.h>
 
+#include "core/compression.hpp"
 #include "gateway_fixture.hpp"
+#include "gunzip.hpp"
 #include "held_connections.hpp"
-#include "src/compression.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -112,7 +113,7 @@ TEST_F(GatewayRecordings, AreShownAsATableOfTheExecutedCycles) {
 }
 
 TEST_F(GatewayRecordings, OneRunsAtATimeAndNothingIsOverwritten) {
-  ASSERT_EQ(post("/api/recordings", {{"name", "running.mcap"}, {"topics", {"feedback_frame"}}}).status, 200);
+  ASSERT_EQ(post("/api/recordings", {{"name", "running.mcap"}, {"topics", {"feedback"}}}).status, 200);
   const auto second = post("/api/recordings");
   EXPECT_EQ(second.status, 409);
   EXPECT_THAT(second.body, HasSubstr("running.mcap is being recorded"));
@@ -128,7 +129,7 @@ TEST_F(GatewayRecordings, OneRunsAtATimeAndNothingIsOverwritten) {
 TEST_F(GatewayRecordings, RefusesWhatIsNoRecording) {
   for (const char* body : {R"({"name":"../x.mcap"})", R"({"name":"x"})", R"({"name":3})", R"({"duration":0})",
                            R"({"duration":"1"})", R"({"topics":[]})", R"({"topics":["nothing"]})",
-                           R"({"topics":"feedback_frame"})", R"({"other":1})", "{"})
+                           R"({"topics":"feedback"})", R"({"other":1})", "{"})
     EXPECT_EQ(http_client::request(port_, "POST", "/api/recordings", body).status, 400) << body;
   for (const char* target :
        {"/api/recordings/none.mcap", "/api/recordings/..%2Fstderr.txt", "/api/recordings/none.mcap/table"})
@@ -165,7 +166,7 @@ TEST_F(Gateway, CompressesLongAnswersAndThePageForThoseWhoPermitIt) {
   EXPECT_EQ(packed.headers.at("content-encoding"), "gzip");
   EXPECT_EQ(packed.headers.at("vary"), "Accept-Encoding");
   EXPECT_LT(packed.body.size() * 4, plain.body.size());
-  EXPECT_EQ(gunzip(packed.body, 16u << 20), plain.body);
+  EXPECT_EQ(gunzip(packed.body), plain.body);
   EXPECT_FALSE(with("/api/plc/image", "br").headers.contains("content-encoding"));
   EXPECT_FALSE(with("/api/parameters/100034", "gzip").headers.contains("content-encoding")) << "short";
 
@@ -175,7 +176,7 @@ TEST_F(Gateway, CompressesLongAnswersAndThePageForThoseWhoPermitIt) {
   const auto script = with("/app.js", "gzip");
   EXPECT_EQ(script.headers.at("content-encoding"), "gzip");
   EXPECT_EQ(script.headers.at("content-type"), "text/javascript; charset=utf-8");
-  EXPECT_EQ(gunzip(script.body, 100), "the script");
+  EXPECT_EQ(gunzip(script.body), "the script");
   EXPECT_EQ(get("/app.js").body, "the script");
 }
 

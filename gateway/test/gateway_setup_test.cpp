@@ -116,11 +116,12 @@ TEST_F(Gateway, AProgramIsStoredOnlyInPlaceOfTheRevisionThatIsNamed) {
   });
 }
 
+// A loop that reads the clock is not found to repeat for ever: it may wait for a time.
 TEST_F(Gateway, AnOrderIsAnsweredWhileAProgramIsChecked) {
   std::atomic<bool> checked = false;
   Response answer;
   std::thread waiting([&] {
-    answer = http_client::request(port_, "POST", "/api/check/0", "N1 #1=1\nGOTO 1\n");
+    answer = http_client::request(port_, "POST", "/api/check/0", "N1 IF [#3001 LT 1] GOTO 1\n");
     checked = true;
   });
   EXPECT_EQ(post("/api/panel/emergency-stop").status, 200);

@@ -123,12 +123,12 @@ TEST_F(Gateway, OneThatStandsByAfterALongRestKnowsWhereTheAxesAreAndMatches) {
   EXPECT_TRUE(
       eventually([&] { return get("/api/channels/0").body.find("\"actual\"") != std::string::npos; }));
   cluster([](auto& c) { c.at_rest = true; });
-  const std::size_t history = bus::writer_qos(bus::QosKind::frame, {}).depth;
-  EXPECT_TRUE(eventually([&] { return cluster([&](auto& c) { return c.frames_at_rest > history; }); }));
+  const std::size_t history = bus::writer_qos(bus::QosKind::batch, {}).depth;
+  EXPECT_TRUE(eventually([&] { return cluster([&](auto& c) { return c.batches_at_rest > history; }); }));
   bus::Bus bus(bus::Vendor::cyclonedds, {domain});
   auto beats = bus.reader(topics::service_state);
   auto arguments = command_line(port_, web_);
-  arguments.emplace_back("--shadow");
+  arguments.emplace_back("--standby");
   const Process standby(arguments, web_ + "/standby.txt");
   idl::service::ServiceState state{}, newest{};
   using idl::service::StandbyState;
@@ -142,8 +142,8 @@ TEST_F(Gateway, OneThatStandsByAfterALongRestKnowsWhereTheAxesAreAndMatches) {
 
 TEST_F(Gateway, OneThatStartsAfterALongRestShowsTheAxesWhereTheyAre) {
   cluster([](auto& c) { c.at_rest = true; });
-  const std::size_t history = bus::writer_qos(bus::QosKind::frame, {}).depth;
-  EXPECT_TRUE(eventually([&] { return cluster([&](auto& c) { return c.frames_at_rest > history; }); }));
+  const std::size_t history = bus::writer_qos(bus::QosKind::batch, {}).depth;
+  EXPECT_TRUE(eventually([&] { return cluster([&](auto& c) { return c.batches_at_rest > history; }); }));
   process_.reset();
   process_ = std::make_unique<Process>(command_line(port_, web_), web_ + "/stderr.txt");
   json first;

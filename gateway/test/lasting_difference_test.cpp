@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/lasting_difference.hpp"
+#include "core/lasting_difference.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/manual_calibration_document.hpp"
+#include "core/manual_calibration_document.hpp"
 
 #include <gmock/gmock.h>
 
-#include "src/measurement_requests.hpp"
+#include "core/measurement_requests.hpp"
 
 namespace trunnion::gateway {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/measurement_requests.hpp"
+#include "core/measurement_requests.hpp"
 
 #include <gtest/gtest.h>
 

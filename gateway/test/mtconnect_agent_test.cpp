@@ -70,7 +70,7 @@ TEST(MtconnectState, HasEveryActiveConditionAndIsNormalWhenTheLastHasGone) {
 }
 
 struct Machine {
-  Snapshot snapshot;
+  ClusterState cluster;
   Agent agent;
   int observed = 0;
 
@@ -78,19 +78,19 @@ struct Machine {
     auto parameters = std::make_shared<idl::parameters::ParameterSet>();
     parameters->revision = 1;
     parameters->values = {{100000, 0, "X"}, {100001, 1, ""}, {106000, 0, "C"}, {106001, 3, ""}};
-    snapshot.set_parameters(parameters);
-    auto& state = snapshot.channels[0];
+    cluster.set_parameters(parameters);
+    auto& state = cluster.channels[0];
     state.name = "mill & turn";
     state.program = "A<B>.NC";
     state.letters = "XC";
     state.workpiece = {1, 2};
-    snapshot.document = {{"cluster", {{"machine", "m"}}},
-                         {"services",
-                          {{"4", {{"service", "channel"}, {"alive", true}}},
-                           {"5", {{"service", "drive"}, {"alive", true}}},
-                           {"6", {{"service", "plc"}, {"alive", true}}}}},
-                         {"axes", {{"0", {{"actual", 1.25}}}, {"6", {{"actual", 90}}}}},
-                         {"plc", {{"emergency_stop", false}}}};
+    cluster.document = {{"cluster", {{"machine", "m"}}},
+                        {"services",
+                         {{"4", {{"service", "channel"}, {"alive", true}}},
+                          {"5", {{"service", "drive"}, {"alive", true}}},
+                          {"6", {{"service", "plc"}, {"alive", true}}}}},
+                        {"axes", {{"0", {{"actual", 1.25}}}, {"6", {{"actual", 90}}}}},
+                        {"plc", {{"emergency_stop", false}}}};
   }
   static AgentSettings settings(std::size_t buffer) {
     AgentSettings settings;
@@ -102,7 +102,7 @@ struct Machine {
   void observe() {
     char time[40];
     std::snprintf(time, sizeof time, "2026-01-01T00:00:%02d.000Z", observed++ % 60);
-    agent.observe(snapshot, time);
+    agent.observe(cluster, time);
   }
   std::string get(const std::string& target) {
     return agent.answer(agent.parse("GET", target), "2026-01-01T00:01:00.000Z");
@@ -112,7 +112,7 @@ struct Machine {
 TEST(MtconnectAgent, KnowsNoDeviceBeforeTheMachineHasPublished) {
   Machine machine;
   EXPECT_THROW(machine.get("/probe"), RequestError);
-  machine.snapshot.channels.clear();
+  machine.cluster.channels.clear();
   machine.observe();
   EXPECT_EQ(machine.agent.device(), nullptr);
 }
@@ -123,8 +123,8 @@ TEST(MtconnectAgent, ObservesChangesAlone) {
   const auto next = machine.agent.buffer().next();
   machine.observe();
   EXPECT_EQ(machine.agent.buffer().next(), next);
-  machine.snapshot.document["axes"]["0"]["actual"] = 1.5;
-  machine.snapshot.document["axes"]["6"]["actual"] = 90.00001;  // less than the 4 digits that are kept
+  machine.cluster.document["axes"]["0"]["actual"] = 1.5;
+  machine.cluster.document["axes"]["6"]["actual"] = 90.00001;  // less than the 4 digits that are kept
   machine.observe();
   EXPECT_EQ(machine.agent.buffer().next(), next + 1);
   EXPECT_THAT(machine.get("/sample?from=" + std::to_string(next)), HasSubstr(">1.5</Position>"));
@@ -134,8 +134,8 @@ TEST(MtconnectAgent, WhatASilentServiceKnowsIsUnavailable) {
   Machine machine;
   machine.observe();
   EXPECT_THAT(machine.get("/current?path=//Linear"), HasSubstr(">1.25</Position>"));
-  machine.snapshot.document["services"]["5"]["alive"] = false;
-  machine.snapshot.document["services"]["5"]["expected"] = true;
+  machine.cluster.document["services"]["5"]["alive"] = false;
+  machine.cluster.document["services"]["5"]["expected"] = true;
   machine.observe();
   EXPECT_THAT(machine.get("/current?path=//Linear"), HasSubstr(">UNAVAILABLE</Position>"));
   EXPECT_THAT(machine.get("/current?path=//Controller"),
@@ -145,7 +145,7 @@ TEST(MtconnectAgent, WhatASilentServiceKnowsIsUnavailable) {
 
 TEST(MtconnectAgent, EscapesWhatXmlDoesNotPermit) {
   Machine machine;
-  machine.snapshot.channels[0].program = std::string("A<B>&\"\x01.NC");
+  machine.cluster.channels[0].program = std::string("A<B>&\"\x01.NC");
   machine.observe();
   EXPECT_THAT(machine.get("/current"), HasSubstr(">A&lt;B&gt;&amp;\"?.NC</Program>"));
   EXPECT_THAT(machine.get("/probe"), HasSubstr("name=\"mill &amp; turn\""));
@@ -154,7 +154,7 @@ TEST(MtconnectAgent, EscapesWhatXmlDoesNotPermit) {
 TEST(MtconnectAgent, RefusesWhatTheBufferHasLost) {
   Machine machine(40);
   for (int i = 0; i < 100; ++i) {
-    machine.snapshot.document["axes"]["0"]["actual"] = i;
+    machine.cluster.document["axes"]["0"]["actual"] = i;
     machine.observe();
   }
   const auto first = machine.agent.buffer().first();
@@ -170,15 +170,15 @@ TEST(MtconnectAgent, ANewAxisIsANewDeviceWithANewInstance) {
   Machine machine;
   machine.observe();
   EXPECT_THAT(machine.get("/probe"), HasSubstr("instanceId=\"1\""));
-  auto parameters = std::make_shared<idl::parameters::ParameterSet>(*machine.snapshot.parameters);
+  auto parameters = std::make_shared<idl::parameters::ParameterSet>(*machine.cluster.parameters);
   parameters->revision = 2;
-  machine.snapshot.set_parameters(parameters);
+  machine.cluster.set_parameters(parameters);
   machine.observe();
   EXPECT_THAT(machine.get("/probe"), HasSubstr("instanceId=\"1\"")) << "a revision with the same axes";
   parameters = std::make_shared<idl::parameters::ParameterSet>(*parameters);
   parameters->revision = 3;
   parameters->values.insert(parameters->values.begin() + 2, {{101000, 0, "Y"}, {101001, 1, ""}});
-  machine.snapshot.set_parameters(parameters);
+  machine.cluster.set_parameters(parameters);
   machine.observe();
   EXPECT_THAT(machine.get("/probe"), HasSubstr("instanceId=\"2\""));
   EXPECT_EQ(machine.agent.buffer().first(), 1u);
@@ -188,18 +188,18 @@ TEST(MtconnectAgent, ReportsToolsThatChangeAndThatAreRemoved) {
   Machine machine;
   auto table = std::make_shared<idl::parameters::ToolTable>();
   table->tools = {{1, 100, 0, 5, 0, "drill"}, {2, 50, 0, 3, 0, ""}};
-  machine.snapshot.tools = table;
+  machine.cluster.tools = table;
   machine.observe();
   EXPECT_THAT(machine.get("/current"), HasSubstr("assetType=\"CuttingTool\">UNAVAILABLE</AssetChanged>"));
   table = std::make_shared<idl::parameters::ToolTable>(*table);
   table->tools[0].length_wear = -0.5;
-  machine.snapshot.tools = table;
+  machine.cluster.tools = table;
   machine.observe();
   EXPECT_THAT(machine.get("/current"), HasSubstr(">T1</AssetChanged>"));
   EXPECT_THAT(machine.get("/asset/T1"), HasSubstr(">99.5</FunctionalLength>"));
   table = std::make_shared<idl::parameters::ToolTable>(*table);
   table->tools.pop_back();
-  machine.snapshot.tools = table;
+  machine.cluster.tools = table;
   machine.observe();
   EXPECT_THAT(machine.get("/current"), HasSubstr(">T2</AssetRemoved>"));
   EXPECT_THAT(machine.get("/assets"), Not(HasSubstr("T2")));

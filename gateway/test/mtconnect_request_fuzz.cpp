@@ -11,13 +11,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     AgentSettings settings;
     settings.machine = "dev", settings.computer = "host", settings.buffer_size = 64;
     Agent made(settings);
-    gateway::Snapshot snapshot;
+    gateway::ClusterState cluster;
     auto parameters = std::make_shared<idl::parameters::ParameterSet>();
     parameters->revision = 1;
     parameters->values = {{100000, 0, "X"}, {101000, 0, "Y"}};
-    snapshot.set_parameters(parameters);
-    snapshot.channels[0].letters = "XY";
-    made.observe(snapshot, "2026-01-01T00:00:00.000Z");
+    cluster.set_parameters(parameters);
+    cluster.channels[0].letters = "XY";
+    made.observe(cluster, "2026-01-01T00:00:00.000Z");
     return made;
   }();
   try {

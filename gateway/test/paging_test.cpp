@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/paging.hpp"
+#include "core/paging.hpp"
 
 #include <gtest/gtest.h>
 
-#include "src/requests.hpp"
+#include "core/requests.hpp"
 
 namespace trunnion::gateway {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/planned_path.hpp"
+#include "core/planned_path.hpp"
 
 #include <gtest/gtest.h>
 

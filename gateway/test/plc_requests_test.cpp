@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/plc_requests.hpp"
+#include "core/plc_requests.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/precondition.hpp"
+#include "core/precondition.hpp"
 
 #include <gtest/gtest.h>
 

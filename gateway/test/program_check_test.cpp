@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/program_check.hpp"
+#include "core/program_check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tool_tables/machine_tables.hpp"
+#include "parameter_store/machine_tables.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -14,11 +14,11 @@ using bus::Json;
 
 class ProgramCheck : public testing::Test {
  protected:
-  Json check(
-      std::string_view text, const std::function<bool()>& stop = [] { return false; }) {
+  Json check(std::string_view text, const std::function<bool()>& stop = {}) {
     language::StringSource source(text);
-    return check_program(source, machine_, stop);
+    return check_program(source, machine_, guard_, stop);
   }
+  program_execution::MoveGuard* guard_ = nullptr;
   channel_setup::ChannelSetup machine_{tool_tables::load_machine_tables(MACHINES_DIRECTORY "/ac-table")};
 };
 
@@ -70,16 +70,71 @@ TEST_F(ProgramCheck, TheErrorOfASubprogramIsShownAtItsCall) {
   EXPECT_EQ(answer["error"]["program"], "O0007");
 }
 
+TEST_F(ProgramCheck, AMoveOfASubprogramIsThatOfTheLineThatCallsIt) {
+  language::StringSource other("O7\nG0 X20\nM99\n"), far("O8\nG0 X9000\nM99\n");
+  machine_.resolve = [&](std::string_view name) {
+    return name == "O0007" ? &other : name == "O0008" ? &far : nullptr;
+  };
+  const auto answer = check("G54 G0 X5 Y0\n\nM98 P7\nM98 P8\nM30\n");
+  EXPECT_EQ(answer["path"]["line"], Json({1, 1, 3}));
+  EXPECT_EQ(answer["error"]["line"], 4);
+  EXPECT_EQ(answer["error"]["number"], 140);
+  EXPECT_EQ(answer["error"]["program"], "O0008");
+  EXPECT_EQ(answer["error"]["program_line"], 2);
+}
+
+TEST_F(ProgramCheck, WhatMotionRefusesIsAnError) {
+  const auto answer = check("G54 G0 X0\nG95 G1 X10 F0.1\nM30\n");
+  ASSERT_TRUE(answer.contains("error")) << "the spindle has no speed";
+  EXPECT_EQ(answer["error"]["line"], 2);
+  EXPECT_EQ(answer["error"]["number"], 1112);
+}
+
+/// A body beyond X20, found at the second time it is asked for.
+class BodyBeyond final : public program_execution::MoveGuard {
+ public:
+  void begin_run() override {}
+  void begin_call() override {}
+  Verdict check(const language::AxisValues&, const language::Command& move) override {
+    if (++asked_ % 2 == 1) return Verdict::unfinished;
+    if (move.target[language::X] <= 20) return Verdict::free;
+    text_ = std::to_string(move.line) + ": head and post would come nearer than 2 mm" + std::string(200, '.');
+    return Verdict::contact;
+  }
+  const std::string& contact_text() const override { return text_; }
+
+ private:
+  unsigned asked_ = 0;
+  std::string text_;
+};
+
+TEST_F(ProgramCheck, BodiesThatWouldMeetAreAnErrorWithTheirWholeText) {
+  BodyBeyond body;
+  guard_ = &body;
+  const auto answer = check("G54 G0 X5\nX20\nX25\nM30\n");
+  ASSERT_TRUE(answer.contains("error"));
+  EXPECT_EQ(answer["error"]["line"], 3);
+  EXPECT_EQ(answer["error"]["number"], 176);
+  EXPECT_EQ(answer["error"]["text"].get<std::string>(),
+            "head and post would come nearer than 2 mm" + std::string(200, '.'));
+  EXPECT_EQ(answer["moves"], 2);
+}
+
+TEST_F(ProgramCheck, AProgramThatRepeatsForEverIsCompleteAtItsReturn) {
+  const auto answer = check("G54 G0 X0\nN1 X5\nX0\nGOTO 1\n");
+  EXPECT_TRUE(answer["complete"]);
+  EXPECT_FALSE(answer.contains("error"));
+}
+
 TEST_F(ProgramCheck, AnEndlessProgramIsStopped) {
   unsigned asked = 0;
-  const auto answer = check("N1 G0 X0\nGOTO 1\n", [&] { return ++asked > 3; });
+  const auto answer = check("N1 IF [#3001 LT 1] GOTO 1\nM30\n", [&] { return ++asked > 3; });
   EXPECT_FALSE(answer["complete"]);
   EXPECT_FALSE(answer.contains("error"));
 }
 
 TEST_F(ProgramCheck, ALongPathIsCutOffAndSaysSo) {
-  const auto answer = check("G54 G0 X0 Y0\nWHILE 1 DO 1\nG1 X1 F100\nG1 X0\nEND 1\n",
-                            [asked = 0]() mutable { return ++asked > 1000; });
+  const auto answer = check("G54 G0 X0 Y0\nWHILE [#1 LT 10001] DO 1\nG1 X1 F100\nG1 X0\n#1=#1+1\nEND 1\n");
   EXPECT_FALSE(answer["path"]["whole"]);
   EXPECT_EQ(answer["path"]["x"].size(), most_path_points);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/program_plan.hpp"
+#include "core/program_plan.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tool_tables/machine_tables.hpp"
+#include "parameter_store/machine_tables.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -47,6 +47,12 @@ TEST_F(ProgramPlan, EndsAtTheLineThatCannotBeExecutedAndSaysWhy) {
   ASSERT_TRUE(answer.contains("alarm"));
   EXPECT_NE(answer["alarm"].get<std::string>().find("3"), std::string::npos) << answer["alarm"];
   EXPECT_NEAR(answer["path"]["x"].back().get<double>(), 60, 1e-3) << "what is before it is on the path";
+}
+
+TEST_F(ProgramPlan, GoesOnBehindACycleOfAnotherService) {
+  const auto answer = plan("G54 G0 X0\nG65 P9010\nG1 X[20+#3100] F6000\nM30\nO9010\n#3100=12\nM99\n");
+  EXPECT_FALSE(answer.contains("alarm")) << answer["alarm"];
+  EXPECT_NEAR(answer["path"]["x"].back().get<double>(), 20, 1e-3) << "the cycle has no parts";
 }
 
 TEST_F(ProgramPlan, IsNotCompleteWhenItsTimeIsOver) {

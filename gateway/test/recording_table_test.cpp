@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/recording_table.hpp"
+#include "core/recording_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include "bus/codec.hpp"
 #include "bus/registry.hpp"
 #include "contracts/topics.hpp"
+#include "core/recording_files.hpp"
 #include "recording/mcap_writer.hpp"
-#include "src/recording_files.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -21,24 +21,24 @@ namespace {
 recording::Bytes recorded(std::uint64_t first, std::uint32_t batches, const std::string& schema = "") {
   recording::MemorySink sink;
   recording::Writer writer(sink, {.chunk_bytes = 4096});
-  const auto* entry = bus::find_topic(topics::feedback_frame.name);
+  const auto* entry = bus::find_topic(topics::feedback.name);
   const auto channel =
       writer.add_channel(entry->description.name, entry->type, schema.empty() ? entry->schema : schema);
   const auto other = writer.add_channel("trunnion/other/1", "Other", "struct Other {};");
   for (std::uint32_t batch = 0; batch < batches; ++batch) {
-    idl::stream::FeedbackFrame frame{};
-    frame.first = first + 3 * batch;
-    frame.count = 3;
-    frame.axis_count = 2;
-    for (std::uint64_t cycle = frame.first; cycle < frame.first + 3; ++cycle)
+    idl::stream::Feedback feedback{};
+    feedback.first = first + 3 * batch;
+    feedback.count = 3;
+    feedback.axis_count = 2;
+    for (std::uint64_t cycle = feedback.first; cycle < feedback.first + 3; ++cycle)
       for (int axis = 0; axis < 2; ++axis) {
-        frame.commanded.push_back(static_cast<double>(cycle) / 7 + axis);
-        frame.actual.push_back(static_cast<double>(cycle) / 7 + axis - 0.25);
+        feedback.commanded.push_back(static_cast<double>(cycle) / 7 + axis);
+        feedback.actual.push_back(static_cast<double>(cycle) / 7 + axis - 0.25);
       }
-    frame.velocity = {1.5, -2};
-    frame.torque = {0.125, 0};
+    feedback.velocity = {1.5, -2};
+    feedback.torque = {0.125, 0};
     bus::Bytes cdr;
-    bus::encode(frame, cdr);
+    bus::encode(feedback, cdr);
     writer.write(channel, batch, batch, cdr);
     writer.write(other, batch, batch, recording::Bytes{1, 2, 3});
   }
@@ -109,7 +109,7 @@ TEST(RecordingTable, OfAFileThatIsCutOffHasWhatIsWhole) {
 
 TEST(RecordingTable, DoesNotBeginWithoutCyclesOfThisContract) {
   EXPECT_FALSE(table(recorded(0, 0)).begun);
-  EXPECT_FALSE(table(recorded(0, 5, "struct FeedbackFrame { long other; };")).begun);
+  EXPECT_FALSE(table(recorded(0, 5, "struct Feedback { long other; };")).begun);
   EXPECT_FALSE(table({}).begun);
   EXPECT_FALSE(table(recording::Bytes(1000, 0x55)).begun);
 }

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "src/plc_requests.hpp"
-#include "src/requests.hpp"
-#include "src/router.hpp"
+#include "core/plc_requests.hpp"
+#include "core/requests.hpp"
+#include "core/router.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -57,6 +57,7 @@ void body(const std::string& text) {
   refused_or([&] {
     const auto tool = tool_request(1, json).tools.at(0);
     require(std::isfinite(tool.length) && std::isfinite(tool.radius) && tool.name.size() <= 64);
+    require(tool.life_used >= 0 && tool.life_limit >= 0 && tool.type.size() <= 32);
   });
   refused_or([&] {
     const auto request = force_request(json);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/requests.hpp"
+#include "core/requests.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ idl::channel::ChannelState five_axes() {
   return state;
 }
 
-// The commands themselves are tested in libs/commands.
+// The commands themselves are tested in libs/cluster/commands.
 TEST(Requests, ACommandGoesToTheChannelWithItsAxes) {
   const auto request = channel_request("jog", {{"axis", "C"}, {"speed", -600.5}}, five_axes());
   EXPECT_EQ(request.channel, 2);
@@ -139,6 +139,23 @@ TEST(Requests, AToolHasAllItsFields) {
     auto incomplete = fields;
     incomplete.erase(name);
     EXPECT_THROW(tool_request(3, incomplete), BadRequest) << name;
+  }
+  EXPECT_EQ(set.tools[0].life_unit, idl::parameters::LifeUnit::MINUTES);
+  body["type"] = "drill";
+  body["life_used"] = 12.5;
+  body["life_limit"] = 90;
+  body["life_unit"] = "PIECES";
+  const auto whole = tool_request(3, body).tools.at(0);
+  EXPECT_EQ(whole.type, "drill");
+  EXPECT_EQ(whole.life_used, 12.5);
+  EXPECT_EQ(whole.life_limit, 90);
+  EXPECT_EQ(whole.life_unit, idl::parameters::LifeUnit::PIECES);
+  const std::vector<std::pair<std::string, Json>> wrong = {
+      {"life_unit", "HOURS"}, {"life_used", -1}, {"life_limit", "90"}, {"type", std::string(33, 'x')}};
+  for (const auto& [name, value] : wrong) {
+    auto refused = fields;
+    refused[name] = value;
+    EXPECT_THROW(tool_request(3, refused), BadRequest) << name;
   }
   EXPECT_EQ(tool_removal(3, "12").revision, 12u);
   EXPECT_EQ(tool_removal(3, "").revision, 0u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/rights.hpp"
+#include "core/rights.hpp"
 
 #include <gtest/gtest.h>
 

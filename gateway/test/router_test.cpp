@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/router.hpp"
+#include "core/router.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "src/rights.hpp"
-#include "src/site.hpp"
+#include "core/rights.hpp"
+#include "core/site.hpp"
 
 namespace trunnion::gateway {
 namespace {

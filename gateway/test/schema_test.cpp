@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "src/snapshot.hpp"
-#include "src/state_document.hpp"
+#include "core/cluster_state.hpp"
+#include "core/state_document.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -106,11 +106,12 @@ Json whole_document() {
   outputs.channels.resize(1);
   document.apply(outputs);
   document.apply(idl::measurement::MeasurementState{});
-  idl::stream::FeedbackFrame frame;
-  frame.first = 100, frame.count = 1, frame.axis_count = 2, frame.mode = idl::stream::DriveMode::HELD;
-  frame.commanded = {1, 2}, frame.actual = {1, 2}, frame.spindle_speed = {500};
+  idl::stream::Feedback feedback;
+  feedback.first = 100, feedback.count = 1, feedback.axis_count = 2,
+  feedback.mode = idl::stream::DriveMode::HELD;
+  feedback.commanded = {1, 2}, feedback.actual = {1, 2}, feedback.spindle_speed = {500};
   document.set_drive_axes({0, 5});
-  document.apply(frame);
+  document.apply(feedback);
   for (const char* what : {"parameters", "pending", "tools", "work_offsets", "programs"})
     document.set_revision(what, 3);
   auto whole = document.document(1);

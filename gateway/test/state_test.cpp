@@ -4,9 +4,9 @@
 #include <random>
 
 #include "bus/contract.hpp"
-#include "src/merge_patch.hpp"
-#include "src/snapshot.hpp"
-#include "src/state_document.hpp"
+#include "core/cluster_state.hpp"
+#include "core/merge_patch.hpp"
+#include "core/state_document.hpp"
 #include "testing_support/allocation_count.hpp"
 
 namespace trunnion::gateway {
@@ -182,14 +182,14 @@ TEST(StateDocument, AnotherContractIsShown) {
   EXPECT_EQ(document.document(0)["services"]["1"]["contract_match"], true);
 }
 
-idl::stream::FeedbackFrame feedback() {
-  idl::stream::FeedbackFrame frame{};
-  frame.first = 50;
-  frame.count = 2;
-  frame.axis_count = 2;
-  frame.commanded = {1, 10, 2, 20};
-  frame.actual = {0.5, 10, 1.9, 20.25};
-  return frame;
+idl::stream::Feedback feedback() {
+  idl::stream::Feedback batch{};
+  batch.first = 50;
+  batch.count = 2;
+  batch.axis_count = 2;
+  batch.commanded = {1, 10, 2, 20};
+  batch.actual = {0.5, 10, 1.9, 20.25};
+  return batch;
 }
 
 using idl::channel::Mode, idl::channel::RunState;
@@ -197,9 +197,9 @@ using idl::channel::Mode, idl::channel::RunState;
 /// What is shown of the run of channel 0 when the drive is at `tick` and the channel is as given.
 Json run_time_at(StateDocument& document, std::uint64_t tick, RunState state, Mode mode = Mode::AUTO,
                  bool suspended = false) {
-  idl::stream::FeedbackFrame frame{};
-  frame.tick = tick;
-  document.apply(frame);
+  idl::stream::Feedback batch{};
+  batch.tick = tick;
+  document.apply(batch);
   idl::channel::ChannelState one{};
   one.state = state;
   one.mode = mode;
@@ -275,19 +275,19 @@ TEST(StateDocument, BeforeTheFirstCycleAxesAreShownWhereTheyStand) {
   EXPECT_EQ(axis["position"], -4);
 }
 
-TEST(StateDocument, AFrameWithFewerNumbersThanItSaysIsReadAsFarAsItGoes) {
+TEST(StateDocument, ABatchWithFewerNumbersThanItSaysIsReadAsFarAsItGoes) {
   StateDocument document;
   document.set_drive_axes({0, 1, 2});
-  auto frame = feedback();
-  frame.count = 60;
-  frame.actual.pop_back();
-  document.apply(frame);
+  auto batch = feedback();
+  batch.count = 60;
+  batch.actual.pop_back();
+  document.apply(batch);
   const auto json = document.document(0);
   EXPECT_EQ(json["axes"].size(), 2u);
   EXPECT_EQ(json["axes"]["0"]["actual"], 0.5);
 }
 
-Snapshot with_two_axes() {
+ClusterState with_two_axes() {
   auto set = std::make_shared<idl::parameters::ParameterSet>();
   set->revision = 7;
   idl::parameters::Parameter name{};
@@ -301,10 +301,10 @@ Snapshot with_two_axes() {
   rapid.value = 3600;
   set->values.push_back(rapid);
   set->pending = {{104034, 250, ""}};
-  Snapshot snapshot;
-  snapshot.set_parameters(set);
-  snapshot.channels[0] = {};
-  return snapshot;
+  ClusterState cluster;
+  cluster.set_parameters(set);
+  cluster.channels[0] = {};
+  return cluster;
 }
 
 TEST(ParameterAnswer, ListsTheAxesTheMachineHasAndNoOthers) {
@@ -322,31 +322,31 @@ TEST(ParameterAnswer, ListsTheAxesTheMachineHasAndNoOthers) {
 }
 
 TEST(ParameterAnswer, SearchesByNumberAndGoesByPages) {
-  const auto snapshot = with_two_axes();
-  const auto by_number = parameters_answer(snapshot, {"", "104034", 0, 100});
+  const auto cluster = with_two_axes();
+  const auto by_number = parameters_answer(cluster, {"", "104034", 0, 100});
   ASSERT_EQ(by_number["parameters"].size(), 1u);
   EXPECT_EQ(by_number["parameters"][0]["name"], "rapid_feed");
-  EXPECT_EQ(parameters_answer(snapshot, {"axis", "Rapid Feed", 0, 100})["total"], 2);
-  const auto all = parameters_answer(snapshot, {"axis", "", 0, 1000});
-  const auto page = parameters_answer(snapshot, {"axis", "", 3, 2});
+  EXPECT_EQ(parameters_answer(cluster, {"axis", "Rapid Feed", 0, 100})["total"], 2);
+  const auto all = parameters_answer(cluster, {"axis", "", 0, 1000});
+  const auto page = parameters_answer(cluster, {"axis", "", 3, 2});
   ASSERT_EQ(page["parameters"].size(), 2u);
   EXPECT_EQ(page["parameters"][0], all["parameters"][3]);
   EXPECT_EQ(page["total"], all["total"]);
-  EXPECT_TRUE(parameters_answer(snapshot, {"nonsense", "", 0, 10})["parameters"].empty());
-  EXPECT_TRUE(parameters_answer(Snapshot{}, {}).is_null());
+  EXPECT_TRUE(parameters_answer(cluster, {"nonsense", "", 0, 10})["parameters"].empty());
+  EXPECT_TRUE(parameters_answer(ClusterState{}, {}).is_null());
 }
 
 TEST(ParameterAnswer, AReadOfOneParameterTakesNoMoreOfALargerSet) {
-  const auto allocations = [](const Snapshot& snapshot) {
+  const auto allocations = [](const ClusterState& cluster) {
     const auto before = testing_support::allocations;
-    EXPECT_EQ(parameter_answer(snapshot, 104034)["value"], 3600);
+    EXPECT_EQ(parameter_answer(cluster, 104034)["value"], 3600);
     return testing_support::allocations - before;
   };
   const auto few = with_two_axes();
   auto set = *few.parameters;
   // Values of a table of 10,000 points, as a machine with compensation has them.
   for (std::uint32_t number = 700000; number < 710000; ++number) set.values.push_back({number, 0.001, ""});
-  Snapshot many;
+  ClusterState many;
   many.set_parameters(std::make_shared<idl::parameters::ParameterSet>(set));
   EXPECT_EQ(allocations(many), allocations(few));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/static_files.hpp"
+#include "core/static_files.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/worker.hpp"
+#include "core/worker.hpp"
 
 #include <gtest/gtest.h>
 

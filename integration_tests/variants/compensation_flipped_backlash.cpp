@@ -18,10 +18,10 @@ class Flipped : public compensation::CompensationCore {
   }
 };
 
-class Service : public stream::StageService<idl::stream::AxisFrame> {
+class Service : public stream::StageService<idl::stream::AxisBatch> {
  public:
   explicit Service(service::Node& node)
-      : StageService(node, stream::Stage::COMPENSATION, topics::kinematics_frame, topics::compensation_frame,
+      : StageService(node, stream::Stage::COMPENSATION, topics::kinematics_batch, topics::compensation_batch,
                      [] { return std::make_unique<Flipped>(); }) {}
 };
 

@@ -4,12 +4,12 @@
 
 namespace trunnion::variants {
 
-using Core = OneBitOff<compensation::CompensationCore, idl::stream::AxisFrame>;
+using Core = OneBitOff<compensation::CompensationCore, idl::stream::AxisBatch>;
 
-class Service : public stream::StageService<idl::stream::AxisFrame> {
+class Service : public stream::StageService<idl::stream::AxisBatch> {
  public:
   explicit Service(service::Node& node)
-      : StageService(node, stream::Stage::COMPENSATION, topics::kinematics_frame, topics::compensation_frame,
+      : StageService(node, stream::Stage::COMPENSATION, topics::kinematics_batch, topics::compensation_batch,
                      [] { return std::make_unique<Core>(); }) {}
 };
 

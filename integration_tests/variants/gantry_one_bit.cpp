@@ -4,12 +4,12 @@
 
 namespace trunnion::variants {
 
-using Core = OneBitOff<gantry::GantryCore, idl::stream::AxisFrame>;
+using Core = OneBitOff<gantry::GantryCore, idl::stream::AxisBatch>;
 
-class Service : public stream::StageService<idl::stream::AxisFrame> {
+class Service : public stream::StageService<idl::stream::AxisBatch> {
  public:
   explicit Service(service::Node& node)
-      : StageService(node, stream::Stage::GANTRY, topics::compensation_frame, topics::gantry_frame,
+      : StageService(node, stream::Stage::GANTRY, topics::compensation_batch, topics::gantry_batch,
                      [] { return std::make_unique<Core>(); }) {}
 
  protected:

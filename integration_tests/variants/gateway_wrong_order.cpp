@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A gateway that asks for a little more than it was asked to: what verification must find. This unit takes
-// the place of gateway/src/requests.cpp.
+// the place of gateway/core/requests.cpp.
 #define channel_request right_channel_request
-#include "src/requests.cpp"  // NOLINT(bugprone-suspicious-include)
+#include "core/requests.cpp"  // NOLINT(bugprone-suspicious-include)
 #undef channel_request
 
 namespace trunnion::gateway {

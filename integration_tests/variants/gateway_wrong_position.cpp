@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A gateway that shows an axis two micrometres beside its position: what verification must find. Linked with
-// --wrap for StateDocument::apply(FeedbackFrame), whose name on the linker's level is below.
-#include "src/state_document.hpp"
+// A gateway that shows an axis two micrometres beside its position: what verification must find.
+#include "gateway_main.hpp"
 
-#define APPLY "_ZN8trunnion7gateway13StateDocument5applyERKNS_3idl6stream13FeedbackFrameE"
-
-namespace trunnion::gateway {
-
-void right_apply(StateDocument* document, const idl::stream::FeedbackFrame& frame) __asm__("__real_" APPLY);
-void wrong_apply(StateDocument* document, const idl::stream::FeedbackFrame& frame) __asm__("__wrap_" APPLY);
-
-void wrong_apply(StateDocument* document, const idl::stream::FeedbackFrame& frame) {
-  auto wrong = frame;
-  for (std::size_t i = 0; i < wrong.actual.size(); i += frame.axis_count) wrong.actual[i] += 0.002;
-  right_apply(document, wrong);
+int main(int argc, char** argv) {
+  return trunnion::gateway_main(argc, argv, [](trunnion::idl::stream::Feedback& feedback) {
+    for (std::size_t i = 0; i < feedback.actual.size(); i += feedback.axis_count) feedback.actual[i] += 0.002;
+  });
 }
-
-}  // namespace trunnion::gateway

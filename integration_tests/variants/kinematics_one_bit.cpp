@@ -4,12 +4,12 @@
 
 namespace trunnion::variants {
 
-using Core = OneBitOff<kinematics::KinematicsCore, idl::stream::PathFrame>;
+using Core = OneBitOff<kinematics::KinematicsCore, idl::stream::PathBatch>;
 
-class Service : public stream::StageService<idl::stream::PathFrame> {
+class Service : public stream::StageService<idl::stream::PathBatch> {
  public:
   explicit Service(service::Node& node)
-      : StageService(node, stream::Stage::KINEMATICS, topics::path_frame, topics::kinematics_frame,
+      : StageService(node, stream::Stage::KINEMATICS, topics::path_batch, topics::kinematics_batch,
                      [] { return std::make_unique<Core>(); }) {}
 };
 

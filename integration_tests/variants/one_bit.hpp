@@ -15,7 +15,7 @@ inline constexpr std::uint64_t wrong_cycle = 700, wrong_again = 1000;
 template <class Core, class In>
 class OneBitOff : public Core {
  public:
-  bool process(const In& in, const stream::FeedbackWindow& feedback, idl::stream::AxisFrame& out) override {
+  bool process(const In& in, const stream::FeedbackWindow& feedback, idl::stream::AxisBatch& out) override {
     if (!Core::process(in, feedback, out)) return false;
     for (std::uint64_t row = 0; row < in.count && in.channel == 0; ++row) {
       if ((in.first + row) % wrong_again != wrong_cycle) continue;

@@ -2,9 +2,9 @@
 // A PLC that is wrong in one bit now and then, whatever the language of its programs: what a swap must find.
 // Registers are written by the true code, which is compiled in here under another name and so takes the place
 // of the library's.
-#include "../../services/plc/src/address.hpp"
+#include "../../services/plc/core/address.hpp"
 #define store store_right
-#include "../../services/plc/src/address.cpp"  // NOLINT(bugprone-suspicious-include)
+#include "../../services/plc/core/address.cpp"  // NOLINT(bugprone-suspicious-include)
 #undef store
 
 #include "../../services/plc/service.hpp"

@@ -90,7 +90,7 @@ void ChannelService::read_hand_over() {
   }
   if (!kept.problem.empty())
     service::report_damage(node_.alarms(), 2, hand_over_file_, kept,
-                           "mode, modal codes, selected program and overrides");
+                           "mode, modal codes, selected program, overrides and switches");
 }
 
 void ChannelService::end() {

@@ -12,7 +12,7 @@
 
 namespace trunnion::channel {
 namespace {
-constexpr auto most_frames = stream::FrameWindow<idl::stream::PathFrame>::slots;  // more than may be ahead
+constexpr auto most_batches = stream::BatchWindow<idl::stream::PathBatch>::slots;  // more than may be ahead
 constexpr double history_pause = 1.0;   // without feedback: longer than a drive that lives is ever silent
 constexpr double cycle_timeout = 3.0;   // of the service of a cycle, to say that it has the call
 constexpr double text_timeout = 0.5;    // without the text that motion waits for, before the alarm
@@ -101,9 +101,9 @@ void ChannelService::watch_cycle() {
 
 void ChannelService::start_stream() {
   node_.bus().set_depth({stream::stream_depth(core_.machine().stream(node_.options().virtual_time), 1)});
-  frame_writer_.emplace(node_.bus().writer(topics::path_frame));
-  present_reader_.emplace(stream::present_reader(node_.bus(), topics::feedback_frame));
-  feedback_reader_.emplace(node_.bus(), topics::feedback_frame);
+  batch_writer_.emplace(node_.bus().writer(topics::path_batch));
+  present_reader_.emplace(stream::present_reader(node_.bus(), topics::feedback));
+  feedback_reader_.emplace(node_.bus(), topics::feedback);
 }
 
 void ChannelService::tell_unreferenced() {
@@ -303,12 +303,12 @@ void ChannelService::pump() {
   drain();
   if (core_.unusable()) answer_requests();
   if (!core_.configured() || !have_tools_ || !have_offsets_ || !have_programs_) return publish();
-  if (!frame_writer_) {
+  if (!batch_writer_) {
     start_stream();
     if (node_.snapshot() != nullptr) continue_from_snapshot();
   }
   while (feedback_reader_->take(feedback_)) {
-    ++frames_in_;
+    ++messages_in_;
     last_feedback_ = service::monotonic_seconds();
     core_.on_feedback(feedback_);
   }
@@ -321,9 +321,9 @@ void ChannelService::pump() {
   read_on();
   if (const auto request = core_.take_stream_request()) stream_writer_.write(*request);
   // Feedback that is ahead of the drive must not let a whole program be computed without a sign of life.
-  for (std::size_t n = 0; n < most_frames && core_.produce(frame_); ++n) {
-    frame_writer_->write(frame_);
-    ++frames_out_;
+  for (std::size_t n = 0; n < most_batches && core_.produce(batch_); ++n) {
+    batch_writer_->write(batch_);
+    ++messages_out_;
   }
   if (const auto auxiliary = core_.take_auxiliary()) auxiliary_writer_.write(*auxiliary);
   if (const auto cycle = core_.take_cycle_request()) cycle_writer_.write(*cycle);
@@ -344,18 +344,10 @@ void ChannelService::read_on() {
   read_on_at_ = now + (now - began);
 }
 
-// An event is news also when the same one is still shown: it is published each time.
 void ChannelService::report_events() {
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
-  for (const auto& event : core_.take_events()) {
-    if (event.alarm == nullptr) {
-      node_.alarms().raise_number(event.number, channel, event.text, core_.link().executed());
-      continue;
-    }
-    node_.alarms().clear(*event.alarm, channel);
-    node_.alarms().raise(*event.alarm, channel, event.text, core_.link().executed());
-    node_.alarms().release(*event.alarm, channel);
-  }
+  for (const auto& event : core_.take_events())
+    node_.alarms().report(*event.alarm, channel, event.text, core_.link().executed());
   if (!core_.held_at_line()) node_.alarms().clear(alarm::search_done, channel);
 }
 
@@ -381,8 +373,8 @@ service::Health ChannelService::health() const {
                   : !tables             ? "waiting for tools, offsets and programs"
                   : !core_.recovered()  ? "waiting for the drive"
                                         : "";
-  health.frames_in = frames_in_;
-  health.frames_out = frames_out_;
+  health.messages_in = messages_in_;
+  health.messages_out = messages_out_;
   health.revision = core_.machine().revision();
   return health;
 }

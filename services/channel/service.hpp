@@ -4,13 +4,13 @@
 #include <map>
 #include <optional>
 
+#include "core/channel_core.hpp"
+#include "core/recorder_watch.hpp"
 #include "record_keeper.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
 #include "service/request.hpp"
-#include "src/channel_core.hpp"
-#include "src/recorder_watch.hpp"
-#include "stream/frame_reader.hpp"
+#include "stream/batch_reader.hpp"
 #include "stream/replica_watch.hpp"
 #include "unusable_parameters.hpp"
 
@@ -78,9 +78,9 @@ class ChannelService : public service::Service {
   bus::Writer<idl::channel::AuxiliaryRequest> auxiliary_writer_;
   bus::Writer<CycleRequest> cycle_writer_;
   bus::Writer<idl::stream::StreamRequest> stream_writer_;
-  std::optional<bus::Writer<idl::stream::PathFrame>> frame_writer_;
-  std::optional<stream::FrameReader<idl::stream::FeedbackFrame>> feedback_reader_;
-  std::optional<stream::FrameReader<idl::stream::FeedbackFrame>>
+  std::optional<bus::Writer<idl::stream::PathBatch>> batch_writer_;
+  std::optional<stream::BatchReader<idl::stream::Feedback>> feedback_reader_;
+  std::optional<stream::BatchReader<idl::stream::Feedback>>
       present_reader_;  ///< without history; until recovered
 
   using AlarmKey = std::array<std::uint32_t, 3>;
@@ -96,11 +96,11 @@ class ChannelService : public service::Service {
   bool record_failed_ = false;
   bool plc_hold_ = false;
   bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;
-  idl::stream::PathFrame frame_;
-  idl::stream::FeedbackFrame feedback_, present_;
+  idl::stream::PathBatch batch_;
+  idl::stream::Feedback feedback_, present_;
   bool have_present_ = false;
   idl::program::ProgramRequest wanted_;
-  std::uint64_t frames_in_ = 0, frames_out_ = 0;
+  std::uint64_t messages_in_ = 0, messages_out_ = 0;
   double last_state_ = 0, last_feedback_ = 0;
   RunState last_run_ = RunState::IDLE;
   bool changed_ = true;

@@ -3,8 +3,8 @@
 // makes corrected ones active.
 #pragma once
 
+#include "core/channel_core.hpp"
 #include "service/alarm_board.hpp"
-#include "src/channel_core.hpp"
 
 namespace trunnion::channel {
 

@@ -4,7 +4,7 @@
 namespace trunnion::compensation {
 
 CompensationService::CompensationService(service::Node& node)
-    : StageService(node, stream::Stage::COMPENSATION, topics::kinematics_frame, topics::compensation_frame,
+    : StageService(node, stream::Stage::COMPENSATION, topics::kinematics_batch, topics::compensation_batch,
                    [] { return std::make_unique<CompensationCore>(); }) {}
 
 }  // namespace trunnion::compensation

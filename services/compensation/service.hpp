@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "src/compensation_core.hpp"
+#include "core/compensation_core.hpp"
 #include "stream/stage_service.hpp"
 
 namespace trunnion::compensation {
 
-class CompensationService : public stream::StageService<idl::stream::AxisFrame> {
+class CompensationService : public stream::StageService<idl::stream::AxisBatch> {
  public:
   explicit CompensationService(service::Node& node);
 };

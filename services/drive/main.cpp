@@ -16,7 +16,7 @@ std::unique_ptr<SimulatedHardware> hardware_of(const machine::MachineConfig& con
   if (!std::filesystem::exists(file)) return std::make_unique<SimulatedHardware>();
   machine::Parameters delivered;
   delivered.values = machine::machine_parameters(config);
-  const auto outline = truth::outline_of(delivered, 0);
+  const auto outline = machine::outline_of(delivered, 0);
   const auto truth = truth::parse_truth(machine::read_text(file), file, outline);
   std::optional<ProbeSetup> probe;
   if (truth.probe)

@@ -9,12 +9,13 @@
 #include <cstring>
 #include <filesystem>
 
+#include "core/timeouts.hpp"
 #include "machine/service_constants.hpp"
 #include "service/damage_alarm.hpp"
 #include "snapshot/fields.hpp"
-#include "src/timeouts.hpp"
 #include "storage/file.hpp"
 #include "stream/stage_service.hpp"
+#include "text/utf8.hpp"
 
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
@@ -71,9 +72,9 @@ void DriveService::start() {
   encoders_.open(bytes_of(memory));
   const auto& p = *parameters_.find(revision_);
   const machine::StreamSettings stream(p, node_.options().virtual_time);
-  frame_cycles_ = stream.batch;
+  batch_cycles_ = stream.batch;
   node_.bus().set_depth({stream::stream_depth(stream, 1)});
-  writer_.emplace(node_.bus().writer(topics::feedback_frame));
+  writer_.emplace(node_.bus().writer(topics::feedback));
   samples_writer_.emplace(node_.bus().writer(topics::servo_test_samples));
   test_requests_.emplace(node_.bus().reader(topics::servo_test_request));
   outputs_.emplace(node_.bus().reader(topics::plc_outputs));
@@ -81,7 +82,7 @@ void DriveService::start() {
   services_.emplace(node_.bus().reader(topics::service_state));
   alarms_.emplace(node_.bus().reader(topics::alarm));
   requests_.emplace(node_.bus().reader(topics::stream_request));
-  frames_.emplace(node_.bus(), topics::gantry_frame);
+  batches_.emplace(node_.bus(), topics::gantry_batch);
   next_tick_ = service::monotonic_seconds();
   send();
 }
@@ -183,24 +184,24 @@ void DriveService::drain() {
   using idl::stream::Input;
   if (parameters_.poll() && core_.configured() && !core_.any_active()) configure(*parameters_.newest());
   const double now = running_time_.now();
-  while (frames_->take(frame_)) {
-    ++frames_in_;
-    // The revision of the frames that move it is the one the drive runs with.
-    if (frame_.revision != revision_) {
-      if (const auto p = parameters_.find(frame_.revision)) {
+  while (batches_->take(batch_)) {
+    ++messages_in_;
+    // The revision of the batches that move it is the one the drive runs with.
+    if (batch_.revision != revision_) {
+      if (const auto p = parameters_.find(batch_.revision)) {
         configure(*p);
       } else {
-        node_.alarms().raise(alarm::revision_unknown, frame_.channel,
-                             "Frames are made with parameter revision " + std::to_string(frame_.revision) +
+        node_.alarms().raise(alarm::revision_unknown, batch_.channel,
+                             "Batches are made with parameter revision " + std::to_string(batch_.revision) +
                                  ", which has not arrived",
-                             frame_.first);
-        node_.alarms().release(alarm::revision_unknown, frame_.channel);  // until the next such frame
+                             batch_.first);
+        node_.alarms().release(alarm::revision_unknown, batch_.channel);  // until the next such batch
         continue;
       }
     }
-    applied(Input::GANTRY_FRAME, identity(*frames_));
-    if (!core_.put(frame_)) {
-      stream::raise_difference(node_.alarms(), *core_.first_arrival(frame_), frame_);
+    applied(Input::GANTRY_BATCH, identity(*batches_));
+    if (!core_.put(batch_)) {
+      stream::raise_difference(node_.alarms(), *core_.first_arrival(batch_), batch_);
       core_.stop();
     }
   }
@@ -273,7 +274,7 @@ void DriveService::send() {
   encoders_.save(bytes_of(memory));
   if (simulation_) simulation_->save(core_.hardware().kept());
   writer_->write(feedback_);
-  ++frames_out_;
+  ++messages_out_;
   last_sent_ = service::monotonic_seconds();
   changed_ = false;
 }
@@ -284,7 +285,7 @@ bool DriveService::request_test(const idl::servo::TestRequest& request) {
   samples_ = {};
   samples_.client = request.client, samples_.number = request.number;
   samples_.phase = idl::servo::TestPhase::REFUSED;
-  samples_.reason = reason.substr(0, 240);
+  samples_.reason = text::shortened(std::move(reason), 240);
   samples_writer_->write(samples_);
   return false;
 }
@@ -315,7 +316,7 @@ void DriveService::run_virtual() {
     core_.step();
     waiting_since_ = 0;
     send_samples();
-    if (core_.rows() >= frame_cycles_) send();
+    if (core_.rows() >= batch_cycles_) send();
     // An emergency stop is not kept waiting by a long return to the path. The periods in which the servos
     // settle are few, and a start within them would make their number a matter of time.
     if (core_.tick() % periods_between_inputs != 0 ||
@@ -346,7 +347,7 @@ void DriveService::run_real() {
     core_.step();
     next_tick_ += core_.period();
     send_samples();
-    if (core_.rows() >= frame_cycles_) send();
+    if (core_.rows() >= batch_cycles_) send();
   }
 }
 
@@ -389,8 +390,8 @@ service::Health DriveService::health() const {
                      : have_plc_         ? Lifecycle::ACTIVE
                                          : Lifecycle::INACTIVE;
   health.detail = !core_.configured() ? "waiting for parameters" : !have_plc_ ? "waiting for the PLC" : "";
-  health.frames_in = frames_in_;
-  health.frames_out = frames_out_;
+  health.messages_in = messages_in_;
+  health.messages_out = messages_out_;
   health.revision = revision_;
   return health;
 }

@@ -4,14 +4,14 @@
 #include <memory>
 #include <optional>
 
+#include "core/drive_core.hpp"
+#include "core/emergency_press.hpp"
 #include "machine/gantry_pairs.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
 #include "service/running_time.hpp"
-#include "src/drive_core.hpp"
-#include "src/emergency_press.hpp"
 #include "storage/retained_pair.hpp"
-#include "stream/frame_reader.hpp"
+#include "stream/batch_reader.hpp"
 
 namespace trunnion::drive {
 
@@ -51,7 +51,7 @@ class DriveService : public service::Service {
   std::optional<storage::RetainedPair> simulation_;  ///< what the hardware keeps besides positions
   std::vector<machine::AxisInfo> unreferenced_;      ///< axes of alarm 115
   DriveCore core_;
-  std::optional<stream::FrameReader<idl::stream::AxisFrame>> frames_;
+  std::optional<stream::BatchReader<idl::stream::AxisBatch>> batches_;
   std::optional<bus::Reader<idl::stream::StreamRequest>> requests_;
   std::optional<bus::Reader<idl::plc::Outputs>> outputs_;
   std::optional<bus::Reader<idl::plc::PanelRequest>> panel_;
@@ -59,17 +59,17 @@ class DriveService : public service::Service {
   std::optional<bus::Reader<idl::service::Alarm>> alarms_;
   std::optional<bus::Reader<idl::servo::TestRequest>> test_requests_;
   std::optional<bus::Writer<idl::servo::TestSamples>> samples_writer_;
-  std::optional<bus::Writer<idl::stream::FeedbackFrame>> writer_;
-  idl::stream::AxisFrame frame_;
-  idl::stream::FeedbackFrame feedback_;
+  std::optional<bus::Writer<idl::stream::Feedback>> writer_;
+  idl::stream::AxisBatch batch_;
+  idl::stream::Feedback feedback_;
   idl::servo::TestSamples samples_;
   std::vector<idl::stream::AppliedInput> applied_;  // not reported yet
   idl::plc::Outputs plc_;
   bool have_plc_ = false;
   EmergencyPress press_;
   double plc_seen_ = 0, test_seen_ = 0;
-  std::uint64_t frames_in_ = 0, frames_out_ = 0, revision_ = 0;
-  std::uint32_t frame_cycles_ = 4;
+  std::uint64_t messages_in_ = 0, messages_out_ = 0, revision_ = 0;
+  std::uint32_t batch_cycles_ = 4;
   double next_tick_ = 0, waiting_since_ = 0, last_sent_ = 0;
   service::RunningTime running_time_;  ///< by which the silence of others is measured
   bool changed_ = false;

@@ -6,10 +6,10 @@
 namespace trunnion::gantry {
 
 GantryService::GantryService(service::Node& node)
-    : StageService(node, stream::Stage::GANTRY, topics::compensation_frame, topics::gantry_frame,
+    : StageService(node, stream::Stage::GANTRY, topics::compensation_batch, topics::gantry_batch,
                    [] { return std::make_unique<GantryCore>(); }) {}
 
-void GantryService::on_feedback(const idl::stream::FeedbackFrame& feedback) {
+void GantryService::on_feedback(const idl::stream::Feedback& feedback) {
   const auto parameters = parameters_.newest();
   if (!parameters || feedback.position.size() != feedback.axis_count) return;
   if (parameters->revision != revision_) {
@@ -30,7 +30,7 @@ void GantryService::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     for (const auto& supervised : pairs) supervise(supervised, feedback);
 }
 
-void GantryService::supervise(const Supervised& supervised, const idl::stream::FeedbackFrame& feedback) {
+void GantryService::supervise(const Supervised& supervised, const idl::stream::Feedback& feedback) {
   const auto& pair = supervised.pair;
   const bool compared = stream::is_coupled(pair, feedback);
   const auto found =

@@ -4,7 +4,7 @@
 namespace trunnion::kinematics {
 
 KinematicsService::KinematicsService(service::Node& node)
-    : StageService(node, stream::Stage::KINEMATICS, topics::path_frame, topics::kinematics_frame,
+    : StageService(node, stream::Stage::KINEMATICS, topics::path_batch, topics::kinematics_batch,
                    [] { return std::make_unique<KinematicsCore>(); }) {}
 
 }  // namespace trunnion::kinematics

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "src/kinematics_core.hpp"
+#include "core/kinematics_core.hpp"
 #include "stream/stage_service.hpp"
 
 namespace trunnion::kinematics {
 
-class KinematicsService : public stream::StageService<idl::stream::PathFrame> {
+class KinematicsService : public stream::StageService<idl::stream::PathBatch> {
  public:
   explicit KinematicsService(service::Node& node);
 };

@@ -33,17 +33,13 @@ truth::Truth truth_of(const machine::MachineConfig& machine, const machine::Para
                       std::uint16_t channel) {
   const auto file = machine.directory + "/truth.yaml";
   if (!std::filesystem::exists(file)) return {};
-  return truth::parse_truth(machine::read_text(file), file, truth::outline_of(delivered, channel));
+  return truth::parse_truth(machine::read_text(file), file, machine::outline_of(delivered, channel));
 }
 
 collision::MachineBodies bodies_of(const std::string& directory, const machine::Parameters& active,
                                    std::uint16_t channel, const truth::Truth& truth) {
-  const auto chain = machine::chain_parameters(active, channel);
-  const auto file = directory + "/bodies.yaml";
-  const bool described = std::filesystem::exists(file);
-  auto bodies = collision::parse_bodies(described ? machine::read_text(file) : "", file, chain,
-                                        truth.geometry.structure);
-  if (!described) bodies.set = collision::derived_bodies(bodies.links);
+  auto bodies =
+      collision::load_bodies(directory, machine::chain_parameters(active, channel), truth.geometry.structure);
   collision::add_solids(bodies.links, truth.solids, bodies.set);
   return bodies;
 }

@@ -12,7 +12,7 @@ namespace trunnion::parameters {
 
 class ParameterService : public service::Service {
  public:
-  /// What it does while it is a shadow.
+  /// What it does while it is on standby.
   using Standby = StandbyService;
 
   explicit ParameterService(service::Node& node);

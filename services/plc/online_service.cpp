@@ -14,6 +14,7 @@
 #include "service/damage_alarm.hpp"
 #include "snapshot/fields.hpp"
 #include "storage/file.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -42,7 +43,7 @@ bool is_done(const std::future<Translated>& worker) {
 idl::plc::OnlineReply reply_of(const std::string& refusal) {
   idl::plc::OnlineReply reply;
   reply.accepted = refusal.empty();
-  reply.reason = refusal.substr(0, 256);
+  reply.reason = text::shortened(refusal, 256);
   return reply;
 }
 
@@ -71,7 +72,7 @@ ActiveSources active_sources(const service::Node& node, const std::string& boot)
       active.stored.emplace();
       return active;
     }
-  const auto stored = ProgramStore(node.options().state_directory + programs_file).load(active.kept);
+  const auto stored = LoadedPrograms(node.options().state_directory + programs_file).load(active.kept);
   try {
     active.files = read_sources(directory);
   } catch (const std::runtime_error&) {

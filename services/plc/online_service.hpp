@@ -8,9 +8,9 @@
 #include <string>
 
 #include "force_request.hpp"
+#include "loaded_programs.hpp"
 #include "online_values.hpp"
 #include "program_load.hpp"
-#include "program_store.hpp"
 #include "round_recorder.hpp"
 #include "service/node.hpp"
 #include "service/request.hpp"
@@ -92,7 +92,7 @@ class OnlineService {
   Applied applied_;
   ActiveSources sources_;
   st::ModbusFile modbus_;
-  ProgramStore store_;
+  LoadedPrograms store_;
   OnlineValues values_{st::Variables()};
   st::Uses uses_;
   ProgramLoad load_;

@@ -53,7 +53,7 @@ PlcService::PlcService(service::Node& node)
       round_writer_(node.options().state_directory + rounds_file),
       online_(node, core_, rounds_, boot_,
               [this](std::int64_t time) { applied(idl::stream::Input::ONLINE_REQUEST, time); }),
-      feedback_(node.bus(), topics::feedback_frame),
+      feedback_(node.bus(), topics::feedback),
       channels_(node.bus().reader(topics::channel_state)),
       requests_(node.bus().reader(topics::auxiliary_request)),
       alarms_(node.bus().reader(topics::alarm)),
@@ -121,7 +121,7 @@ service::SnapshotAnswer PlcService::snapshot() {
   using idl::service::SnapshotKind;
   if (!core_.configured()) return {SnapshotKind::LATER, "the PLC waits for parameters", ""};
   if (online_.is_loading()) return {SnapshotKind::LATER, "new PLC programs are being loaded", ""};
-  const auto core = core_.snapshot();
+  const auto core = core_.state();
   bus::Json state = {{"core", snapshot::written(core)}};
   if (const auto& program = core.memory.program; program.cells > 0) {
     const std::vector<std::uint64_t> values(program.values.begin(), program.values.begin() + program.cells);
@@ -142,7 +142,7 @@ service::SnapshotAnswer PlcService::snapshot() {
 // After the first parameters, which would count as a changed input.
 void PlcService::continue_from_snapshot() {
   const auto& state = *node_.snapshot();
-  auto core = core_.snapshot();
+  auto core = core_.state();
   snapshot::read(state.at("core"), core);
   if (const auto found = state.find("variables"); found != state.end()) {
     auto& program = core.memory.program;
@@ -212,14 +212,14 @@ void PlcService::take_inputs() {
   using idl::stream::Input;
   // Virtual time may run faster than the programs: the process shows that it lives in between.
   const double began = service::monotonic_seconds();
-  while (service::monotonic_seconds() - began < longest_input && feedback_.take(frame_)) {
-    ++frames_in_;
-    online_.each([&](PlcCore& core) { core.set_feedback(frame_); });
-    rounds_.record(frame_);
+  while (service::monotonic_seconds() - began < longest_input && feedback_.take(batch_)) {
+    ++messages_in_;
+    online_.each([&](PlcCore& core) { core.set_feedback(batch_); });
+    rounds_.record(batch_);
     // One message at a time, so that the result does not depend on how many have arrived.
-    advance(node_.options().virtual_time ? frame_.tick : std::max(frame_.tick, core_.memory().tick));
-    if (frame_.tick != tick_) {
-      tick_ = frame_.tick;
+    advance(node_.options().virtual_time ? batch_.tick : std::max(batch_.tick, core_.memory().tick));
+    if (batch_.tick != tick_) {
+      tick_ = batch_.tick;
       tick_seen_ = service::monotonic_seconds();
     }
   }
@@ -263,7 +263,7 @@ void PlcService::take_inputs() {
   online_.pump(service::monotonic_seconds());
 }
 
-/// In real time the ticks between two frames of the drive follow the clock, for at most drive_timeout.
+/// In real time the ticks between two batches of the drive follow the clock, for at most drive_timeout.
 std::uint64_t PlcService::tick_now(double now) const {
   if (node_.options().virtual_time || tick_seen_ == 0) return tick_;
   const double ahead = std::clamp(now - tick_seen_, 0.0, drive_timeout) / period_;
@@ -309,7 +309,7 @@ void PlcService::publish(double now) {
     same.run_until_tick = outputs.run_until_tick;
   if (first_ || same != outputs || now - outputs_written_ >= outputs_period) {
     outputs_.write(outputs);
-    ++frames_out_;
+    ++messages_out_;
     last_outputs_ = outputs;
     outputs_written_ = now;
   }
@@ -374,8 +374,8 @@ service::Health PlcService::health() const {
                      : !core_.configured() ? Lifecycle::UNCONFIGURED
                                            : Lifecycle::ACTIVE;
   health.detail = !fault_.empty() ? fault_ : !core_.configured() ? "waiting for parameters" : "";
-  health.frames_in = frames_in_;
-  health.frames_out = frames_out_;
+  health.messages_in = messages_in_;
+  health.messages_out = messages_out_;
   health.revision = parameters_.newest() ? parameters_.newest()->revision : 0;
   return health;
 }

@@ -15,13 +15,13 @@
 #include "service/parameter_client.hpp"
 #include "service/request.hpp"
 #include "standby_service.hpp"
-#include "stream/frame_reader.hpp"
+#include "stream/batch_reader.hpp"
 
 namespace trunnion::plc {
 
 class PlcService : public service::Service {
  public:
-  /// The service while it is a shadow.
+  /// The service while it is on standby.
   using Standby = StandbyService;
 
   explicit PlcService(service::Node& node);
@@ -64,7 +64,7 @@ class PlcService : public service::Service {
   RoundWriter round_writer_;
   bus::Bytes round_bytes_;
   OnlineService online_;
-  stream::FrameReader<idl::stream::FeedbackFrame> feedback_;
+  stream::BatchReader<idl::stream::Feedback> feedback_;
   bus::Reader<idl::channel::ChannelState> channels_;
   bus::Reader<idl::channel::AuxiliaryRequest> requests_;
   bus::Reader<idl::service::Alarm> alarms_;
@@ -78,11 +78,11 @@ class PlcService : public service::Service {
   OrderService orders_;
 
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, idl::service::Alarm> active_alarms_;
-  idl::stream::FeedbackFrame frame_;
+  idl::stream::Feedback batch_;
   idl::stream::InputLog inputs_;
   idl::plc::Outputs last_outputs_;
   idl::plc::Image last_image_;
-  std::uint64_t tick_ = 0, frames_in_ = 0, frames_out_ = 0;
+  std::uint64_t tick_ = 0, messages_in_ = 0, messages_out_ = 0;
   double tick_seen_ = 0, period_ = 0.001, outputs_written_ = 0, image_written_ = 0, log_written_ = 0,
          waiting_since_ = 0;
   std::uint64_t client_ = service::make_client_id(), resets_sent_ = 0;

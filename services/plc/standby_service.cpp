@@ -51,8 +51,8 @@ service::Health StandbyService::health() const {
   health.difference = comparison_.difference();
   health.compared = comparison_.equal_ticks();
   health.in_step = comparison_.in_step();
-  health.frames_in = rounds_in_;
-  health.frames_lost = rounds_lost_;
+  health.messages_in = rounds_in_;
+  health.cycles_lost = rounds_lost_;
   return health;
 }
 

@@ -13,7 +13,7 @@ namespace trunnion::program {
 
 class ProgramService : public service::Service {
  public:
-  /// The service while it is a shadow.
+  /// The service while it is on standby.
   using Standby = StandbyService;
 
   explicit ProgramService(service::Node& node);

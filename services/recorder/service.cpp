@@ -28,7 +28,7 @@
 #include "service/node.hpp"
 #include "service/request.hpp"
 #include "snapshot_client.hpp"
-#include "stream/whole_frame.hpp"
+#include "stream/whole_batch.hpp"
 #include "topic_source.hpp"
 
 namespace trunnion::recorder {
@@ -117,7 +117,7 @@ class Sources {
   bus::Backend& backend_;
   bus::Writer<idl::stream::RecordingProgress> progress_writer_;
   ReadingProgress progress_{service::make_client_id()};
-  idl::stream::FeedbackFrame feedback_;
+  idl::stream::Feedback feedback_;
   std::vector<TopicSource> topics_;
   std::vector<std::uint32_t> sequences_;
   std::vector<bus::DiscoveredWriter> writers_;

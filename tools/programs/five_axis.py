@@ -29,7 +29,7 @@ def unit(a):
 
 
 def rotate(axis, degrees, v):
-    """Rodrigues' formula, as libs/geometry turns a table."""
+    """Rodrigues' formula, as libs/motion/geometry turns a table."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     k = cross(axis, v)
     return tuple(c * v[i] + s * k[i] + (1 - c) * dot(axis, v) * axis[i] for i in range(3))

@@ -3,12 +3,15 @@
 """Checks what the documents and the sources say of the structure:
 
 - the table of README.md names every directory, and no directory that is not there
-- the top CMakeLists.txt names every directory of libs/ and services/
+- the top CMakeLists.txt names every directory of services/
+- the modules of libs/ are as their READMEs and docs/architecture.md say (modules.py)
 - every path that CONTRIBUTING.md names is there
 - no source includes a file of another directory by a way around its include root
 - every source names its licence in its first two lines
 """
 import os, re, subprocess, sys
+
+import modules
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 GROUPS = ("libs", "services", "deploy", "configs", "examples", "tools", "docs")  # their directories have rows of their own
@@ -36,9 +39,9 @@ def check_readme():
 
 
 def check_build():
-    listed = set(re.findall(r"\b(?:libs|services)/\w+", read("CMakeLists.txt")))
+    listed = set(re.findall(r"\bservices/\w+", read("CMakeLists.txt")))
     if "services/*" in read("CMakeLists.txt"): listed |= {f"services/{name}" for name in directories("services")}
-    there = {f"{group}/{name}" for group in ("libs", "services") for name in directories(group)}
+    there = {f"services/{name}" for name in directories("services")}
     return [f"CMakeLists.txt: {name} is not in the list of directories" for name in sorted(there - listed)]
 
 
@@ -56,7 +59,7 @@ def check_includes():
             for name in files:
                 if not name.endswith((".hpp", ".cpp")): continue
                 path = os.path.relpath(os.path.join(folder, name), ROOT)
-                home = "/".join(path.split("/")[: 1 if group == "gateway" else 2])
+                home = "/".join(path.split("/")[: {"gateway": 1, "libs": 3}.get(group, 2)])
                 for include in re.findall(r'^#include "(\.\.?/[^"]+)"', read(path), re.M):
                     target = os.path.normpath(os.path.join(os.path.dirname(path), include))
                     if not target.startswith(home + "/"): errors.append(f"{path}: includes {target}, which is not of {home}")
@@ -73,6 +76,6 @@ def check_licence():
 
 
 if __name__ == "__main__":
-    errors = check_readme() + check_build() + check_contributing() + check_includes() + check_licence()
+    errors = check_readme() + check_build() + modules.check() + check_contributing() + check_includes() + check_licence()
     print("\n".join(errors), file=sys.stderr, end="\n" if errors else "")
     sys.exit(1 if errors else 0)

@@ -9,18 +9,18 @@ import argparse, glob, os, re, shutil, subprocess, sys
 
 STAGE = "thermal"
 FILES = {
-    "CMakeLists.txt": f"""trunnion_library(trunnion_{STAGE}_core SOURCES src/{STAGE}_core.cpp LINK trunnion_stream)
-target_include_directories(trunnion_{STAGE}_core PUBLIC ${{CMAKE_CURRENT_SOURCE_DIR}}/src)
+    "CMakeLists.txt": f"""trunnion_library(trunnion_{STAGE}_core SOURCES core/{STAGE}_core.cpp LINK trunnion_stream)
+target_include_directories(trunnion_{STAGE}_core PUBLIC ${{CMAKE_CURRENT_SOURCE_DIR}}/core)
 trunnion_service({STAGE} LINK trunnion_{STAGE}_core)
 """,
-    f"src/{STAGE}_core.hpp": """#pragma once
+    f"core/{STAGE}_core.hpp": """#pragma once
 #include "machine/parameters.hpp"
 #include "stream/stage_core.hpp"
 namespace trunnion::thermal {
-class ThermalCore : public stream::StageCore<idl::stream::AxisFrame> {
+class ThermalCore : public stream::StageCore<idl::stream::AxisBatch> {
  public:
   void configure(const machine::Parameters& parameters, std::uint16_t channel) override;
-  bool process(const idl::stream::AxisFrame& in, const stream::FeedbackWindow& feedback, idl::stream::AxisFrame& out) override;
+  bool process(const idl::stream::AxisBatch& in, const stream::FeedbackWindow& feedback, idl::stream::AxisBatch& out) override;
   void load(std::span<const double>) override {}
   void save(stream::StateValues& state) const override { state.clear(); }
  private:
@@ -28,11 +28,11 @@ class ThermalCore : public stream::StageCore<idl::stream::AxisFrame> {
 };
 }
 """,
-    f"src/{STAGE}_core.cpp": """#include "thermal_core.hpp"
+    f"core/{STAGE}_core.cpp": """#include "thermal_core.hpp"
 #include "machine/parameter_constants.hpp"
 namespace trunnion::thermal {
 void ThermalCore::configure(const machine::Parameters& parameters, std::uint16_t) { growth_ = parameters.get(parameter::thermal_growth); }
-bool ThermalCore::process(const idl::stream::AxisFrame& in, const stream::FeedbackWindow&, idl::stream::AxisFrame& out) {
+bool ThermalCore::process(const idl::stream::AxisBatch& in, const stream::FeedbackWindow&, idl::stream::AxisBatch& out) {
   out.axes = in.axes;
   out.setpoints = in.setpoints;
   for (auto& setpoint : out.setpoints) setpoint += growth_;
@@ -41,10 +41,10 @@ bool ThermalCore::process(const idl::stream::AxisFrame& in, const stream::Feedba
 }
 """,
     "service.hpp": """#pragma once
-#include "src/thermal_core.hpp"
+#include "core/thermal_core.hpp"
 #include "stream/stage_service.hpp"
 namespace trunnion::thermal {
-class ThermalService : public stream::StageService<idl::stream::AxisFrame> {
+class ThermalService : public stream::StageService<idl::stream::AxisBatch> {
  public:
   explicit ThermalService(service::Node& node);
  private:
@@ -55,7 +55,7 @@ class ThermalService : public stream::StageService<idl::stream::AxisFrame> {
     "service.cpp": """#include "service.hpp"
 namespace trunnion::thermal {
 ThermalService::ThermalService(service::Node& node)
-    : StageService(node, stream::Stage::THERMAL, topics::gantry_frame, topics::thermal_frame,
+    : StageService(node, stream::Stage::THERMAL, topics::gantry_batch, topics::thermal_batch,
                    [] { return std::make_unique<ThermalCore>(); }),
       growth_(node.bus().writer(topics::spindle_growth)) {}
 }
@@ -132,16 +132,16 @@ def add_topic(s):
 
 def add_parameter(s):
     s.follow("A parameter")
-    s.edit("libs/machine/catalogue.yaml", r"^  # class user\n", r'\g<0>  - {class: user, offset: 990, name: thermal_growth, unit: mm, type: real, min: 0, '
+    s.edit("libs/machine/machine/catalogue.yaml", r"^  # class user\n", r'\g<0>  - {class: user, offset: 990, name: thermal_growth, unit: mm, type: real, min: 0, '
            "max: 1, default: 0.25, activation: reset, access: user, help: Growth of the spindle}\n")
 
 
 def add_g_code(s):
     s.follow("A G code")
     # G4.1 waits a second: a row, and a function of the handler.
-    s.edit("libs/language/codes.cpp", r'^    GCode\{40, (.*?)::dwell>(.*?)"G4 P500"\},\n', r'\g<0>    GCode{41, \g<1>::wait>\g<2>"G4.1"},\n')
-    s.edit("libs/language/positioning.hpp", r"^  Fault dwell\([^\n]*\n", r"\g<0>  Fault wait(std::uint16_t at);  ///< G4.1\n", named="positioning")
-    s.edit("libs/language/positioning.cpp", r"^Fault Positioning::check_machine_coordinates", "Fault Positioning::wait(std::uint16_t) {\n"
+    s.edit("libs/program/language/codes.cpp", r'^    GCode\{40, (.*?)::dwell>(.*?)"G4 P500"\},\n', r'\g<0>    GCode{41, \g<1>::wait>\g<2>"G4.1"},\n')
+    s.edit("libs/program/language/positioning.hpp", r"^  Fault dwell\([^\n]*\n", r"\g<0>  Fault wait(std::uint16_t at);  ///< G4.1\n", named="positioning")
+    s.edit("libs/program/language/positioning.cpp", r"^Fault Positioning::check_machine_coordinates", "Fault Positioning::wait(std::uint16_t) {\n"
            "  output_.push(CommandKind::dwell).dwell_seconds = 1;\n  return {};\n}\n\n\\g<0>", named="positioning")
 
 
@@ -151,11 +151,11 @@ def add_operator_command(s):
     s.edit("idl/channel.idl", r"^      uint32 parts; *// SET_PARTS\n", r"\g<0>      uint32 lot;                        // SET_LOT\n")
     s.edit("idl/operator_commands.yaml", r"^panel:", '  - {command: SET_LOT, route: lot, word: lot, busy: true, about: "Set the number of the lot",\n'
            '     fields: [{name: lot, argument: NUMBER, about: "Number of the lot", minimum: 0, maximum: 1000}]}\n\n\\g<0>')
-    s.edit("libs/commands/command_table.hpp", r"^  tool\n", "  tool,\n  lot\n", named="libs/commands")
-    file = "libs/commands/channel_request.cpp"
-    s.edit(file, r"^    case Into::parts:\n      request.parts =(.*?)break;\n", r"\g<0>    case Into::lot:\n      request.lot =\g<1>break;\n", named="libs/commands")
-    s.edit(file, r"^    case Into::parts:\n      return request.parts;\n", r"\g<0>    case Into::lot:\n      return request.lot;\n", named="libs/commands")
-    s.edit("services/channel/src/channel_commands.cpp", r"^    case CommandKind::SET_PARTS:", r"    case CommandKind::SET_LOT:\n      return {};\n\g<0>")
+    s.edit("libs/cluster/commands/command_table.hpp", r"^  tool\n", "  tool,\n  lot\n", named="libs/cluster/commands")
+    file = "libs/cluster/commands/channel_request.cpp"
+    s.edit(file, r"^    case Into::parts:\n      request.parts =(.*?)break;\n", r"\g<0>    case Into::lot:\n      request.lot =\g<1>break;\n", named="libs/cluster/commands")
+    s.edit(file, r"^    case Into::parts:\n      return request.parts;\n", r"\g<0>    case Into::lot:\n      return request.lot;\n", named="libs/cluster/commands")
+    s.edit("services/channel/core/channel_commands.cpp", r"^    case CommandKind::SET_PARTS:", r"    case CommandKind::SET_LOT:\n      return {};\n\g<0>")
     for part in ("operator_commands.yaml", "state_table_test.cpp"):
         if part not in s.paragraph: sys.exit(f"CONTRIBUTING.md: the paragraph does not name {part}")
     arguments = ["tools/generate_api.py"]
@@ -166,22 +166,22 @@ def add_operator_command(s):
 def add_stage(s):
     for name, text in FILES.items(): s.write(f"services/{STAGE}/{name}", text)
     s.follow("A service", "A stage")
-    topic = ('  - {handle: thermal_frame, name: trunnion/thermal/axis_frame/1, type: "trunnion::stream::AxisFrame", qos: frame, '
+    topic = ('  - {handle: thermal_batch, name: trunnion/thermal/axis_batch/1, type: "trunnion::stream::AxisBatch", qos: batch, '
              "writers: [thermal], readers: [drive], about: the same with the growth of the spindle}\n")
     s.edit("idl/topics.yaml", r"\Z", topic)
     s.edit("idl/stream.idl", r"(enum Stage \{[^}]*GANTRY)", rf"\g<1>, {STAGE.upper()}")
-    s.edit("idl/topics.yaml", r"(handle: gantry_frame,.*?readers: \[)drive", rf"\g<1>{STAGE}")
+    s.edit("idl/topics.yaml", r"(handle: gantry_batch,.*?readers: \[)drive", rf"\g<1>{STAGE}")
     for path, _, files in os.walk(s.path("services/drive")):
         for name in files:
             file = os.path.relpath(os.path.join(path, name), s.root)
-            if name.endswith(".cpp") and "topics::gantry_frame" in s.read(file):
-                s.write(file, s.read(file).replace("topics::gantry_frame", "topics::thermal_frame"))
+            if name.endswith(".cpp") and "topics::gantry_batch" in s.read(file):
+                s.write(file, s.read(file).replace("topics::gantry_batch", "topics::thermal_batch"))
     s.edit("README.md", r"^(\| \[services/gantry/\][^\n]*\n)", rf"\g<1>| [services/{STAGE}/](services/{STAGE}) | stage: growth of the spindle |\n")
     for machine in os.listdir(s.path("configs/machines")):
         file = f"configs/machines/{machine}/machine.yaml"
         if s.there(file): s.edit(file, r"^(  - \{service: gantry)", rf"  - {{service: {STAGE}}}\n\g<1>", named="machine.yaml")
-    s.edit("libs/machine/services.yaml", r"^(  - \{name: gantry,[^\n]*\n)",
-           rf"\g<1>  - {{name: {STAGE}, cyclic: true, stage: {{input: gantry_frame, output: thermal_frame}}}}\n")
+    s.edit("libs/machine/machine/services.yaml", r"^(  - \{name: gantry,[^\n]*\n)",
+           rf"\g<1>  - {{name: {STAGE}, cyclic: true, stage: {{input: gantry_batch, output: thermal_batch}}}}\n")
 
 
 def object_of(s, directory, target, source):
@@ -210,8 +210,8 @@ def main():
     if "trunnion/thermal/spindle_growth/1" not in s.read("build/release/generated/contracts/topics.md"): sys.exit("topics.md: the topic is missing")
     # The objects alone: an archive or a program would build the libraries again, for nothing that the compiler does not say.
     sources = ((f"services/{STAGE}", f"trunnion_{STAGE}_core", f"{STAGE}_core.cpp"), (f"services/{STAGE}", f"trunnion-{STAGE}", "main.cpp"),
-               (f"services/{STAGE}", f"trunnion-{STAGE}", "service.cpp"), ("libs/language", "trunnion_language", "codes.cpp"),
-               ("libs/language", "trunnion_language", "positioning.cpp"), ("libs/commands", "trunnion_commands", "channel_request.cpp"))
+               (f"services/{STAGE}", f"trunnion-{STAGE}", "service.cpp"), ("libs/program/language", "trunnion_language", "codes.cpp"),
+               ("libs/program/language", "trunnion_language", "positioning.cpp"), ("libs/cluster/commands", "trunnion_commands", "channel_request.cpp"))
     s.run(*build, *sorted({object_of(s, *source) for source in sources}))
     shutil.rmtree(s.root)
 

@@ -10,6 +10,7 @@ import threading
 import unittest
 
 import trunnion
+from trunnion.data import from_json
 from trunnion.http import Http
 from trunnion.stream import merge_patch
 from trunnion.units import convert
@@ -30,6 +31,16 @@ class Units(unittest.TestCase):
         for unit, wanted in (("mm", "deg"), ("mm/min", "mm"), ("", "mm"), ("cycles", "s")):
             with self.subTest(unit=unit), self.assertRaisesRegex(trunnion.Error, f"cannot be given in {wanted}"):
                 convert(1, unit, wanted)
+
+
+class Tools(unittest.TestCase):
+    def test_a_tool_has_its_life_and_none_from_a_gateway_that_knows_of_none(self):
+        row = {"number": 3, "length": 80.5, "length_wear": 0, "radius": 4, "radius_wear": 0, "name": "drill"}
+        plain = from_json(trunnion.Tool, row)
+        self.assertEqual((plain.type, plain.life_used, plain.life_limit, plain.life_unit), ("", 0, 0, "MINUTES"))
+        life = {"type": "drill", "life_used": 12.5, "life_limit": 90, "life_unit": "PIECES"}
+        tool = from_json(trunnion.Tool, {**row, **life})
+        self.assertEqual((tool.type, tool.life_used, tool.life_limit, tool.life_unit), ("drill", 12.5, 90, "PIECES"))
 
 
 def server_frame(opcode, payload, final=True):

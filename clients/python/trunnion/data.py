@@ -11,6 +11,7 @@ from .units import convert
 
 Mode = Literal["AUTO", "MDI", "JOG", "REF"]
 RunState = Literal["IDLE", "RUNNING", "HOLDING", "HELD", "WAITING", "INTERRUPTED"]
+LifeUnit = Literal["MINUTES", "PIECES"]
 _Type = TypeVar("_Type")
 
 
@@ -89,6 +90,11 @@ class Alarm:
         return self.instance, self.number, self.part, self.occurrences
 
 
+def active_alarms(state: dict[str, Any]) -> list[Alarm]:
+    """The alarms of a state of the stream, in its order."""
+    return [from_json(Alarm, one) for one in state.get("alarms", {}).values()]
+
+
 @dataclasses.dataclass(frozen=True)
 class PastAlarm:
     """An alarm that there was. Times are ISO 8601; `cleared` is None while it is active."""
@@ -124,7 +130,7 @@ class Plan:
 
 @dataclasses.dataclass(frozen=True)
 class Tool:
-    """A row of the tool table, mm."""
+    """A row of the tool table, mm; the life in `life_unit`, as it was entered, with a limit of 0 for none."""
 
     number: int
     length: float
@@ -132,6 +138,10 @@ class Tool:
     radius: float
     radius_wear: float
     name: str
+    type: str = ""
+    life_used: float = 0
+    life_limit: float = 0
+    life_unit: LifeUnit = "MINUTES"
 
 
 @dataclasses.dataclass(frozen=True)

@@ -7,7 +7,7 @@ import urllib.parse
 from typing import Any
 
 from .channel import Channel
-from .data import Alarm, Parameter, PastAlarm, Plan, Program, Tool, from_json
+from .data import Alarm, Parameter, PastAlarm, Plan, Program, Tool, active_alarms, from_json
 from .errors import Error, NotConnected, Refused
 from .http import Http
 from .recordings import Recordings, StoredRecordings
@@ -144,7 +144,7 @@ class Machine:
     @property
     def channels(self) -> list[Channel]:
         """Every channel that has reported, by number."""
-        return [Channel(self, number) for number in sorted(map(int, self.stream.state.get("channels", {})))]
+        return [Channel(self.http, self.stream, self.period, number) for number in sorted(map(int, self.stream.state.get("channels", {})))]
 
     def channel(self, number: int | None = None) -> Channel:
         """One channel; without a number the first. Raises NotConnected when it has not reported."""
@@ -157,8 +157,7 @@ class Machine:
     @property
     def alarms(self) -> list[Alarm]:
         """Active alarms, the oldest first."""
-        found = [from_json(Alarm, one) for one in self.stream.state.get("alarms", {}).values()]
-        return sorted(found, key=lambda alarm: (alarm.since, alarm.number))
+        return sorted(active_alarms(self.stream.state), key=lambda alarm: (alarm.since, alarm.number))
 
     def alarm_history(self, search: str = "", limit: int = 2000) -> list[PastAlarm]:
         """Alarms that there were, the newest first; `search`: part of number, text or source."""

@@ -94,7 +94,7 @@ class Model {
     fresh_ = {};
     fresh_.instance = processes_[i].instance % generation + ++generations_ * generation;
     fresh_.start(now_);
-    swap_.emplace(i < 2 ? Comparison::frames : Comparison::once, 10, now_);
+    swap_.emplace(i < 2 ? Comparison::batches : Comparison::once, 10, now_);
     promoted_ = false;
   }
   void kill_fresh() { fresh_.runs = false; }

@@ -59,7 +59,7 @@ void expect_failure(const SwapStep& step, SwapFailure failure) {
 }
 
 TEST(SwapSequence, AStageIsPromotedAfterEnoughEqualCyclesOverlapsAndThenEndsTheOldOne) {
-  Trial t(Comparison::frames);
+  Trial t(Comparison::batches);
   t.compare(499);
   EXPECT_EQ(t.step().action, SwapAction::wait) << "one cycle is missing";
   t.view.compared = 500;
@@ -77,7 +77,7 @@ TEST(SwapSequence, AStageIsPromotedAfterEnoughEqualCyclesOverlapsAndThenEndsTheO
 }
 
 TEST(SwapSequence, TheOverlapCountsFromWhenTheNewStageIsInStep) {
-  Trial t(Comparison::frames);
+  Trial t(Comparison::batches);
   t.compare(500);
   EXPECT_EQ(t.step().action, SwapAction::promote_new);
   t.promote();
@@ -90,7 +90,7 @@ TEST(SwapSequence, TheOverlapCountsFromWhenTheNewStageIsInStep) {
 }
 
 TEST(SwapSequence, FewerCyclesSufficeWhenNothingMoves) {
-  Trial t(Comparison::frames);
+  Trial t(Comparison::batches);
   t.compare(120);
   t.moves = false;
   EXPECT_EQ(t.until_action(2).action, SwapAction::promote_new);
@@ -125,14 +125,14 @@ TEST(SwapSequence, ThePlcEndsTheOldOneAfterEnoughEqualTicksWithoutAnOverlap) {
 }
 
 TEST(SwapSequence, ADifferenceBeforeThePromotionKeepsTheOldOne) {
-  for (const auto comparison : {Comparison::frames, Comparison::ticks, Comparison::once}) {
+  for (const auto comparison : {Comparison::batches, Comparison::ticks, Comparison::once}) {
     Trial t(comparison);
     t.view.announced = true;
     t.view.standby = StandbyState::DIFFERING;
     t.view.differs = true;
     expect_failure(t.step(), SwapFailure::differs);
   }
-  Trial t(Comparison::frames);
+  Trial t(Comparison::batches);
   t.compare(499);
   t.view.differs = true;
   expect_failure(t.step(), SwapFailure::differs);
@@ -140,17 +140,17 @@ TEST(SwapSequence, ADifferenceBeforeThePromotionKeepsTheOldOne) {
 }
 
 TEST(SwapSequence, AnotherContractIsRefusedBeforeAnythingIsCompared) {
-  Trial t(Comparison::frames);
+  Trial t(Comparison::batches);
   t.view.announced = true;
   t.view.contract_matches = false;
   expect_failure(t.step(), SwapFailure::other_contract);
 }
 
 TEST(SwapSequence, OneThatDoesNotJoinOrHasNothingToCompareIsGivenUp) {
-  Trial never(Comparison::frames);
+  Trial never(Comparison::batches);
   expect_failure(never.until_action(10), SwapFailure::did_not_join);
   EXPECT_NEAR(never.view.now, SwapSequence::join_timeout, 0.02);
-  Trial silent(Comparison::frames);
+  Trial silent(Comparison::batches);
   silent.compare(10);
   expect_failure(silent.until_action(10), SwapFailure::nothing_to_compare);
 }
@@ -164,7 +164,7 @@ TEST(SwapSequence, AServiceAtWorkIsNotEnded) {
 }
 
 TEST(SwapSequence, OneThatEndsEarlyIsStartedASecondTimeAndNotAThird) {
-  Trial t(Comparison::frames);
+  Trial t(Comparison::batches);
   t.view.new_runs = false;
   EXPECT_EQ(t.step().action, SwapAction::start_new);
   t.compare(200);
@@ -174,13 +174,13 @@ TEST(SwapSequence, OneThatEndsEarlyIsStartedASecondTimeAndNotAThird) {
 }
 
 TEST(SwapSequence, WhatCannotBeExecutedIsNotTriedTwice) {
-  Trial t(Comparison::frames);
+  Trial t(Comparison::batches);
   t.view.new_runs = t.view.executable = false;
   expect_failure(t.step(), SwapFailure::no_executable);
 }
 
 TEST(SwapSequence, APromotedStageThatTakesNoPartIsStartedAgainAndThenGivenUp) {
-  Trial t(Comparison::frames);
+  Trial t(Comparison::batches);
   t.compare(500);
   EXPECT_EQ(t.step().action, SwapAction::promote_new);
   EXPECT_EQ(t.until_action(4).action, SwapAction::start_new);

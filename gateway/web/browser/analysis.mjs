@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { appears, check, drawn, eventually, hand, inaccessible, knows, mdi, openPage, overflowing, post, settled, shot, told } from "./harness.mjs";
 
-/** As `trunnion export --csv feedback_frame`: a circle of 20 mm in 2 s from cycle `start` on, X with 0.02 mm at 50 Hz. */
+/** As `trunnion export --csv feedback`: a circle of 20 mm in 2 s from cycle `start` on, X with 0.02 mm at 50 Hz. */
 function circle(start, offset) {
   const lines = ["cycle,channel,epoch,revision,commanded[0],commanded[1],commanded[2],actual[0],actual[1],actual[2]"];
   for (let i = 0; i < 4096; ++i) {

@@ -96,6 +96,22 @@ async function tools(page, url) {
   await page.keyboard.press("Enter");
   await eventually("the name is stored", async () => (await tool(url, 77))?.name === "Drill 8");
   check("a tool is entered", (await tool(url, 77)).length === 80.5);
+  const row = page.locator("tr", { has: page.locator("[data-test=life-77]") });
+  for (const [label, typed, field, stored, shown] of [
+    ["T77 Type", "drill", "type", "drill", "drill"],
+    ["T77 Life used", "12.5", "life_used", 12.5, "12.5 min"],
+    ["T77 Life limit", "12", "life_limit", 12, "12.5 / 12 min"],
+  ]) {
+    await page.getByLabel(label, { exact: true }).click();
+    await page.getByLabel(label, { exact: true }).fill(typed);
+    await page.keyboard.press("Enter");
+    await eventually(`${label} is stored`, async () => (await tool(url, 77))?.[field] === stored);
+    // The next change is one of the table that the page has: it must know this one.
+    await eventually(`${label} is shown`, () => row.innerText(), (text) => text.includes(shown));
+  }
+  await page.getByRole("combobox", { name: "Unit of life" }).selectOption("PIECES");
+  await eventually("the life is shown with its limit and unit", () => page.locator("[data-test=life-77]").innerText(), (shown) => shown === "12.5 / 12 pieces");
+  check("a tool has type and life, and one that is used up is marked", (await page.locator("[data-test=life-77] .warn").count()) === 1);
   await page.getByRole("textbox", { name: "add to Length wear" }).pressSequentially("-0.02", hand);
   await page.keyboard.press("Enter");
   await eventually("the wear is added", async () => (await tool(url, 77))?.length_wear === -0.02);
@@ -114,6 +130,29 @@ async function tools(page, url) {
   await eventually("it is back", async () => (await tool(url, 77))?.name === "Drill 8");
   check("a deleted tool comes back with all its fields", (await tool(url, 77)).length_wear === -0.02);
   await fetch(`${url}api/tools/77`, { method: "DELETE" });
+}
+
+/** At an override of 0 a line does not come to its end: the channel is not at rest for as long as the test wants. */
+async function intoSpindle(page, url) {
+  const load = page.getByRole("button", { name: "Load T2 into spindle" });
+  const place = () => page.locator("[data-test=place-2]").innerText();
+  await eventually("the place of T2 is that of the PLC's table", place, (shown) => /^\d+$/.test(shown));
+  await page.getByRole("button", { name: "Tool T2", exact: true }).click();
+  await post(url, "channels/0/override", { kind: "feed", value: 0 });
+  await eventually("a line is under way", async () => (await post(url, "channels/0/mdi", { line: "G91 G1 X1 F100" })).ok);
+  await knows(page, "the channel runs", ({ state }) => state === "RUNNING");
+  await told(page, /^Load T2 into spindle: the channel is not at rest \(RUNNING\)/, () => load.click(), { refused: true });
+  check("a tool is not loaded while the channel moves, and it is said why", (await channelState(url)).state === "RUNNING");
+  await post(url, "channels/0/reset");
+  await post(url, "channels/0/override", { kind: "feed", value: 1 });
+  await knows(page, "the channel is at rest", ({ state }) => state === "IDLE");
+  await post(url, "channels/0/mode", { mode: "JOG" });
+  await knows(page, "the channel is at rest in another mode", ({ state, mode }) => state === "IDLE" && mode === "JOG");
+  await told(page, "T2 M6 is being executed", () => load.click(), { refused: false });
+  await eventually("the tool is changed", () => channelState(url), ({ state, tool }) => state === "IDLE" && tool === 2);
+  await eventually("it needs no second change", () => load.isDisabled());
+  await eventually("and the PLC has it there", place, (shown) => shown === "spindle");
+  check("a tool of the table is loaded into the spindle by its key", (await channelState(url)).mode === "MDI");
 }
 
 async function planes(page, url) {
@@ -151,6 +190,7 @@ export async function setup(browser, url) {
   await page.getByRole("navigation", { name: "Views" }).getByRole("button", { name: "Setup", exact: true }).click();
   await workOffsets(page, url);
   await tools(page, url);
+  await intoSpindle(page, url);
   await planes(page, url);
   check(`setup logs no errors ${page.complaints}`, page.complaints.length === 0);
   await page.context().close();

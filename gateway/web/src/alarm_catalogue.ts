@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generated from libs/machine/alarms.yaml and its translations by tools/generate_docs.py.
+// Generated from libs/machine/machine/alarms.yaml and its translations by tools/generate_docs.py.
 
 /** What an alarm says, its usual cause and what the operator does, by its number and the language. */
 export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { text: string; cause: string; remedy: string }>>>> = {
@@ -337,5 +337,16 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { t
     en: { text: "The partner of a gantry axis has an alarm of its drive", cause: "The drive of the other side of the gantry has stopped, and this one with it (10a943)", remedy: "Remove the cause at the axis of alarm 114, then reset" },
     zh: { text: "龙门轴的另一侧驱动器有报警", cause: "龙门另一侧的驱动器已停止，本侧随之停止（10a943）", remedy: "在报警 114 所指的轴上排除原因，然后复位" },
     de: { text: "Der Partner einer Gantry-Achse hat einen Alarm seines Antriebs", cause: "Der Antrieb der anderen Seite der Gantry hat angehalten, und dieser mit ihm (10a943)", remedy: "Die Ursache an der Achse des Alarms 114 beheben, dann zurücksetzen" },
+  },
+};
+
+/** The alarms of the NC language, whose texts name place and cause: what the operator does, by the language. */
+export const languageAlarms: { first: number; last: number; remedy: Readonly<Record<string, string>> } = {
+  first: 1000,
+  last: 1999,
+  remedy: {
+    en: "Correct the line that the text names, then start again.",
+    zh: "修改文本所指的程序行，然后重新启动。",
+    de: "Die im Text genannte Zeile berichtigen, dann neu starten.",
   },
 };

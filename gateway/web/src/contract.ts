@@ -79,7 +79,7 @@ export interface ChannelState {
   /** parameter revision in use */
   revision: number;
   /** cycles written and not yet executed */
-  frames_ahead: number;
+  cycles_ahead: number;
   /** every axis has its reference */
   homed: boolean;
   /** parameter 04c914 takes the place of programmed feeds */
@@ -222,8 +222,8 @@ export interface Service {
   lifecycle: "UNCONFIGURED" | "INACTIVE" | "ACTIVE" | "FAULT" | "ABSENT";
   /** What it waits for, or what is wrong */
   detail: string;
-  frames_per_second: number;
-  frames_lost: number;
+  messages_per_second: number;
+  cycles_lost: number;
   /** s */
   uptime: number;
   /** Parameter revision in use, 0 = none yet */
@@ -385,6 +385,8 @@ export interface Parameter {
   group: string;
 }
 
+export type LifeUnit = "MINUTES" | "PIECES";
+
 export interface Tool {
   number: number;
   /** mm, spindle face to tip */
@@ -396,6 +398,13 @@ export interface Tool {
   /** mm, added */
   radius_wear: number;
   name: string;
+  /** for display: end mill, drill */
+  type: string;
+  /** in life_unit, as it was entered: the control does not count it */
+  life_used: number;
+  /** in life_unit, 0 = not limited */
+  life_limit: number;
+  life_unit: LifeUnit;
 }
 
 export interface ToolTable {
@@ -669,7 +678,7 @@ export interface PlcTask {
   last_us: number;
   worst_us: number;
   budget_us: number;
-  /** Of the last scan; of an instruction list its instructions */
+  /** Of the last scan */
   statements: number;
   /** The most of one scan */
   most_statements: number;
@@ -1004,3 +1013,10 @@ export interface ChannelCommands {
   "parts": { parts: number; };
   "tool-in-spindle": { tool: number; };
 }
+
+/** What POST /api/channels/{channel}/override accepts as value, by the kind. */
+export const overrideLimits = {
+  feed: { minimum: 0, maximum: 1.5 },
+  rapid: { minimum: 0, maximum: 1 },
+  spindle: { minimum: 0.5, maximum: 1.5 },
+};

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Three decimals with an explicit minus; never "-0.000". */
-export function millimetres(value: number, decimals = 3): string {
+/** With so many decimals and an explicit minus; never "-0.000". */
+export function fixed(value: number, decimals = 3): string {
   const text = value.toFixed(decimals);
   return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "\u2212");
+}
+
+/** A number as it is typed, with comma or point; nothing when it is none. */
+export function typedNumber(typed = ""): number | undefined {
+  const text = typed.trim().replace(",", ".").replace("\u2212", "-");
+  const value = Number(text);
+  return text === "" || !Number.isFinite(value) ? undefined : value;
 }
 
 /** The numbers at an axis, `step` apart: with the decimals of the step, whatever its size. */
@@ -12,7 +19,12 @@ export function tickTexts(values: readonly number[], step: number): string[] {
     const scaled = step * 10 ** decimals;
     if (Math.abs(scaled - Math.round(scaled)) <= 1e-6 * scaled) break;
   }
-  return values.map((value) => millimetres(value, decimals));
+  return values.map((value) => fixed(value, decimals));
+}
+
+/** Four significant digits; a dash for what is no number. */
+export function shortNumber(value: number): string {
+  return Number.isFinite(value) ? String(Number(value.toPrecision(4))).replace("-", "\u2212") : "\u2013";
 }
 
 export function whole(value: number): string {

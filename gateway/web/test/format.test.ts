@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import { bytes, compact, duration, limits, millimetres, refusal, tickTexts, title, unit } from "../src/format";
+import { bytes, compact, duration, fixed, limits, refusal, shortNumber, tickTexts, title, typedNumber, unit } from "../src/format";
 
 test("a position never reads minus zero and a negative one has a minus sign", () => {
-  expect(millimetres(-0.0001)).toBe("0.000");
-  expect(millimetres(-1.5)).toBe("\u22121.500");
-  expect(millimetres(12.3456, 4)).toBe("12.3456");
+  expect(fixed(-0.0001)).toBe("0.000");
+  expect(fixed(-1.5)).toBe("\u22121.500");
+  expect(fixed(12.3456, 4)).toBe("12.3456");
+});
+
+test("a typed number has a comma or a point", () => {
+  expect([" 1,5 ", "-.5", "\u22123", "1e2", "", "1.2.3", "Infinity"].map((typed) => typedNumber(typed))).toEqual([1.5, -0.5, -3, 100, undefined, undefined, undefined]);
+  expect([typedNumber(undefined), typedNumber("  ")]).toEqual([undefined, undefined]);
 });
 
 test("numbers to look at", () => {
@@ -13,6 +18,7 @@ test("numbers to look at", () => {
   expect(compact(2.5)).toBe("2.5");
   expect(compact(123456)).toBe("123.5 k");
   expect(bytes(1500)).toBe("1.5 kB");
+  expect([1234.56, -0.000123456, 0, NaN].map(shortNumber)).toEqual(["1235", "\u22120.0001235", "0", "\u2013"]);
   expect(duration(3725)).toBe("1:02:05");
 });
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
 import type { MeasurementInputs, MeasurementPhase, MeasurementPose, MeasurementResult, MeasurementState } from "../src/contract";
-import { faultsOf, fieldsOf, inputsOf, numberOf, refusalOf, yamlOf } from "../src/measurement/inputs";
+import { faultsOf, fieldsOf, inputsOf, refusalOf, yamlOf } from "../src/measurement/inputs";
 import { givesUp, isUnderWay, phaseText, poseNumber, possibleOrders } from "../src/measurement/progress";
 import { inclination, isOf, largest, lettersOf, micrometres, plotRange, poseName, vectorRows } from "../src/measurement/result";
 import { languages } from "../src/text/texts";
@@ -52,10 +52,6 @@ test("a field beyond its limits is named with what is wrong", () => {
   expect(faults({ axes: [{ ...a, start: "30", end: "30" }, c] })).toEqual({ "A.end": "order" });
   expect(faults({ axes: [{ ...a, points: "2" }, { ...c, points: "3.5" }] })).toEqual({ "A.points": "limits", "C.points": "whole" });
   expect(faults({ axes: [a, { ...c, end: "720" }] })).toEqual({});  // C has no travel
-});
-
-test("a typed number has a comma or a point", () => {
-  expect([" 1,5 ", "-.5", "\u22123", "1e2", "", "1.2.3", "Infinity"].map(numberOf)).toEqual([1.5, -0.5, -3, 100, undefined, undefined, undefined]);
 });
 
 test("the YAML has a value in each line and maps by their indent", () => {

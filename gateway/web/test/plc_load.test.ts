@@ -5,7 +5,7 @@ import { isSource, messageOf, stateOf, withFile } from "../src/plc/load";
 import { type State, token } from "../src/plc/structured_text";
 
 test("sources are those that the PLC takes", () => {
-  expect(["main.st", "a.xml", "fast.il", "devices.yaml", "messages.yaml", "modbus.yaml"].every(isSource)).toBe(true);
+  expect(["main.st", "a.xml", "a.exp", "A.EXP", "fast.il", "devices.yaml", "messages.yaml", "modbus.yaml"].every(isSource)).toBe(true);
   expect(["logic_test.st", "other.il", "machine.yaml", "main.st.orig"].some(isSource)).toBe(false);
 });
 
@@ -46,6 +46,7 @@ test("Structured Text has its colours, also in comments over several lines", () 
     ["/*", "comment"], [" d /*", "comment"], [" e */", "comment"], [" f */", "comment"], ["IF", "keyword"],
   ]);
   expect(kinds(["s := 'it$'s'; d := T#1h30m;"])).toEqual([[":=", "operator"], ["'it$'s'", "string"], [":=", "operator"], ["T#1h30m", "number"]]);
+  expect(kinds(["METHOD a", "p ?= d; p := NULL;"])).toEqual([["METHOD", "keyword"], ["?=", "operator"], [":=", "operator"], ["NULL", "keyword"]]);
 });
 
 test("an instruction is one where a line of a list begins with it", () => {

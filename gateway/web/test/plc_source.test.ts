@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import { declared, devices, inputBits, Paths, sourceLines } from "../src/plc/source";
+import { declared, devices, inputBits, listProgram, Paths, sourceLines } from "../src/plc/source";
 
 const source = `(* main task (* or another *)
    of two lines: ignored *)
@@ -28,6 +28,29 @@ test("names of a line are found without comments and strings", () => {
   expect(lines.map(({ text }) => text).join("\n")).toBe(source);
 });
 
+test("a block with methods, and a class, have their own variables alone", () => {
+  const text = `FUNCTION_BLOCK FINAL Pump EXTENDS Device
+VAR n : INT; END_VAR
+METHOD start VAR_INPUT speed : INT; END_VAR
+n := speed;
+END_METHOD
+n := n + 1;
+END_FUNCTION_BLOCK
+CLASS Clock
+VAR t : INT; END_VAR
+METHOD PUBLIC tick t := t + 1; END_METHOD
+END_CLASS
+class := 1;
+`;
+  const lines = sourceLines(text);
+  expect(lines[3]).toMatchObject({ unit: "Pump", kind: "FUNCTION_BLOCK", names: ["n", "speed"] });
+  expect(lines[5]).toMatchObject({ unit: "Pump", kind: "FUNCTION_BLOCK", names: ["n"] });
+  expect(lines[9]).toMatchObject({ unit: "Clock", kind: "FUNCTION_BLOCK" });
+  expect(lines[11]!.unit).toBe("");
+  expect(declared(text, "Pump")).toEqual(["n"]);
+  expect(declared(text, "Clock")).toEqual(["t"]);
+});
+
 test("a comment begins in no string, also of wide characters", () => {
   const lines = sourceLines(`a := "(*"; b := 'x /*';\nc := "it$"s // d"; e := 1;`);
   expect(lines.map(({ names }) => names)).toEqual([["a", "b"], ["c", "e"]]);
@@ -53,8 +76,9 @@ test("inputs are those that sources and devices name", () => {
   const text = "PROGRAM main VAR closed AT %X16.0 : BOOL; END_VAR x := %IX2.7 OR %Y1.0; (* %X9.9 %X9.0 *)";
   const everywhere = ["emergency_stop_button", "reset_button", "feed_hold_button"].map((name, bit) => ({ address: `%X0.${bit}`, name }));
   const yaml = "door:\n  actuator: {extended: X17.0, retract: Y17.1} # X20.1\n";
-  expect(inputBits([{ name: "main.st", text }, { name: "devices.yaml", text: yaml }, { name: "modbus.yaml", text: "X1.1" }])).toEqual([
+  expect(inputBits([{ name: "main.st", text }, { name: "devices.yaml", text: yaml }, { name: "a.exp", text: "y := %X18.3;" }, { name: "modbus.yaml", text: "X1.1" }])).toEqual([
     ...everywhere, { address: "%X2.7", name: "" }, { address: "%X4.5", name: "probe_contact" }, { address: "%X16.0", name: "closed" }, { address: "%X17.0", name: "" },
+    { address: "%X18.3", name: "" },
   ]);
   expect([...devices(["simulation.door.position", "simulation.door.extend", "main.n"])]).toEqual([["door", ["simulation.door.position", "simulation.door.extend"]]]);
 });
@@ -76,4 +100,12 @@ test("a register with a name is found by it, a variable of the program before it
   expect(paths.find("m_code_0", "main")).toBe("main.m_code_0");
   expect(paths.find("m_code_1", "main")).toBe("m_code_1");
   expect(paths.find("fin_x", "main")).toBeUndefined();
+});
+
+test("an instruction list is the program of its file, with the blocks of its numbers", () => {
+  expect(listProgram("fast.il")).toBe("fast");
+  expect(listProgram("fast.st")).toBe("");
+  const lines = sourceLines("LD %X0.3 // TON 9, 1\nTON 3, 500\nfull: R_TRIG 4\nST lamp", "fast");
+  expect(lines.map(({ names }) => names)).toEqual([["LD", "%X0.3"], ["TON", "ton_3.Q"], ["full", "R_TRIG", "r_trig_4.Q"], ["ST", "lamp"]]);
+  expect(lines.every(({ unit, kind }) => unit === "fast" && kind === "PROGRAM")).toBe(true);
 });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import { alarmCatalogue } from "../src/alarm_catalogue";
+import { alarmCatalogue, languageAlarms } from "../src/alarm_catalogue";
 import { explanation, wording } from "../src/state/alarms";
 import { languageOf, themeOf } from "../src/state/preferences";
 import { languages } from "../src/text/texts";
@@ -9,7 +9,7 @@ import { languages } from "../src/text/texts";
 const same = new Set([
   "viewScene", "modeAUTO", "modeMDI", "modeJOG", "modeREF", "modeAuto", "modeMdi", "mdi", "plc", "classNc", "reset", "name",
   "virtualTime", "detail", "radius", "viewParameters", "parameters", "parameter", "programmed", "sceneSpeed", "valueIn", "axisUnit", "setup",
-  "plcTask",
+  "plcTask", "lifeMinutes",
 ]);
 
 test("every text is translated and none is empty", () => {
@@ -44,7 +44,9 @@ test("every machine alarm has cause and remedy; alarms of the language name thei
     expect(new Set(shown.map((one) => one.remedy)).size, `${number}: remedy`).toBe(3);
   }
   expect(explanation({ number: 130 }, languages.de)?.cause).toContain("Not-Halt");
-  expect(explanation({ number: 1107 }, languages.de)).toEqual({ cause: "", remedy: languages.de.languageRemedy });
+  expect(Object.keys(languageAlarms.remedy)).toEqual(Object.keys(languages));
+  const remedy = "Die im Text genannte Zeile berichtigen, dann neu starten.";
+  for (const number of [languageAlarms.first, 1107, languageAlarms.last]) expect(explanation({ number }, languages.de)).toEqual({ cause: "", remedy });
   expect(explanation({ number: 9999 }, languages.en)).toBeUndefined();
 });
 

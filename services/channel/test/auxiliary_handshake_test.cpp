@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handshakes with the PLC and the owner of the tables by themselves.
+// The handshake with the PLC by itself.
 #include "auxiliary_handshake.hpp"
 
 #include <gtest/gtest.h>
@@ -74,21 +74,6 @@ TEST(AuxiliaryHandshake, ACancelLowersAnOpenStrobeOnly) {
   handshake.cancel();
   EXPECT_EQ(handshake.take_request()->kind, AuxiliaryKind::NO_AUXILIARY);
   EXPECT_EQ(handshake.finish(done(raised->number)), Outcome::not_open);
-}
-
-TEST(AuxiliaryHandshake, ATableChangeIsAnsweredOnceAndForgottenWhenCancelled) {
-  AuxiliaryHandshake handshake(0);
-  EXPECT_FALSE(handshake.finish_table());
-  idl::parameters::ParameterRequest request;
-  request.who = "a test";
-  handshake.begin_table(request);
-  ASSERT_TRUE(handshake.take_table_request());
-  EXPECT_FALSE(handshake.take_table_request()) << "sent once";
-  EXPECT_TRUE(handshake.finish_table());
-  EXPECT_FALSE(handshake.finish_table());
-  handshake.begin_table(request);
-  handshake.cancel();
-  EXPECT_FALSE(handshake.finish_table());
 }
 
 }  // namespace

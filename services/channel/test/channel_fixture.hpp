@@ -120,7 +120,7 @@ struct Channel : ::testing::Test {
     ASSERT_TRUE(ask(CommandKind::SET_MODE).accepted);
     ASSERT_TRUE(ask(CommandKind::SELECT_PROGRAM, "part.nc").accepted);
   }
-  /// A round up to the first frame.
+  /// A round up to the first batch.
   void begin_round() {
     core->advance();
     if (const auto chunk = core->wanted()) {
@@ -134,7 +134,7 @@ struct Channel : ::testing::Test {
     core->advance();
     if (const auto request = core->take_stream_request()) drive.request(*request);
   }
-  /// A round from behind the last frame on.
+  /// A round from behind the last batch on.
   void end_round() {
     if (const auto auxiliary = core->take_auxiliary();
         auxiliary && auxiliary->kind != idl::channel::AuxiliaryKind::NO_AUXILIARY) {
@@ -146,8 +146,8 @@ struct Channel : ::testing::Test {
   }
   void round() {
     begin_round();
-    idl::stream::PathFrame frame;
-    while (core->produce(frame)) drive.put(frame);
+    idl::stream::PathBatch batch;
+    while (core->produce(batch)) drive.put(batch);
     end_round();
   }
   void run(int rounds = 100000) {

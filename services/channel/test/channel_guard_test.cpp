@@ -4,7 +4,7 @@
 
 #include "channel_fixture.hpp"
 #include "machine/alarm_constants.hpp"
-#include "tool_tables/machine_tables.hpp"
+#include "parameter_store/machine_tables.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -209,6 +209,60 @@ TEST_F(Guard, AHandwheelOffsetIsRefused) {
   EXPECT_FALSE(ask(CommandKind::HANDWHEEL_OFFSET, "", 1).accepted);
   restart(CollisionMode::off);
   EXPECT_TRUE(ask(CommandKind::HANDWHEEL_OFFSET, "", 1).accepted);
+}
+
+/// Without a channel core around them.
+struct BodiesAlone : ::testing::Test {
+  channel_setup::ChannelSetup machine{
+      tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table")};
+  ChannelBodies alone{machine};
+  void demand(CollisionMode mode, const char* text = bodies) {
+    alone.demand(mode, {"bodies.yaml", text});
+    const auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+    alone.configure(tables.parameters, 0);
+  }
+};
+
+TEST_F(BodiesAlone, LetEverythingPassUntilTheCheckIsDemanded) {
+  AxisMove move{0, 150, 1000};
+  EXPECT_FALSE(alone.guard_jog(move, {}, {150}, {}));
+  EXPECT_EQ(move.target, 150);
+  EXPECT_FALSE(alone.guard_reference(move, {}, {150}, {}));
+  EXPECT_FALSE(alone.jog_arrived({150}));
+  EXPECT_FALSE(alone.stop());
+}
+
+TEST_F(BodiesAlone, CutAJogShortAndTellItWhereItArrives) {
+  demand(CollisionMode::stop);
+  ASSERT_EQ(alone.error(), "");
+  AxisMove move{0, 150, 1000};
+  ASSERT_FALSE(alone.guard_jog(move, {}, {150}, {}));
+  EXPECT_NEAR(move.target, stop_at - early, within);
+  EXPECT_FALSE(alone.jog_arrived({move.target - 1}));
+  const auto text = alone.jog_arrived({move.target});
+  ASSERT_TRUE(text);
+  EXPECT_EQ(text->rfind("JOG X: ", 0), 0u) << *text;
+  EXPECT_FALSE(alone.jog_arrived({move.target})) << "once";
+}
+
+TEST_F(BodiesAlone, RefuseAReferenceReturnThatWouldHaveToBeCutShort) {
+  demand(CollisionMode::stop);
+  EXPECT_TRUE(alone.guard_reference({0, 150, 1000}, {}, {150}, {}));
+  EXPECT_FALSE(alone.jog_arrived({150}));
+  EXPECT_FALSE(alone.guard_reference({0, 50, 1000}, {}, {50}, {}));
+}
+
+TEST_F(BodiesAlone, OnlyReportWithWarn) {
+  demand(CollisionMode::warn);
+  AxisMove move{0, 150, 1000};
+  EXPECT_FALSE(alone.guard_jog(move, {}, {150}, {}));
+  EXPECT_EQ(move.target, 150);
+  EXPECT_TRUE(alone.jog_arrived({150}));
+}
+
+TEST_F(BodiesAlone, SayWhatIsWrongWithTheirFile) {
+  demand(CollisionMode::stop, "bodies: [{name: a}]");
+  EXPECT_EQ(alone.error().rfind("bodies.yaml:1:", 0), 0u) << alone.error();
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST_F(Channel, RunsAProgramToItsEndAndLandsOnTheLastPointBitForBit) {
   EXPECT_TRUE(events.empty()) << events[0].text;
 }
 
-TEST_F(Channel, TheTrajectoryDoesNotDependOnWhenFramesAreExecuted) {
+TEST_F(Channel, TheTrajectoryDoesNotDependOnWhenBatchesAreExecuted) {
   const std::string program = "G90\nG1 X20 Y3 F3000\nX40 Y-3\nG3 X60 Y-3 R15\nG4 X0.05\nG0 Z10\nM30\n";
   load(program);
   ask(CommandKind::CYCLE_START);
@@ -122,7 +122,7 @@ TEST_F(Channel, ASyntaxErrorIsReportedWithItsPlaceAndWhatIsBeforeItRuns) {
   ask(CommandKind::CYCLE_START);
   run();
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].number, 1101u);
+  EXPECT_EQ(events[0].alarm, &alarm::unknown_g);
   EXPECT_EQ(events[0].text.substr(0, 12), "part.nc:3:1:");
   EXPECT_EQ(drive.rows.back()[0], 10);
 }
@@ -410,11 +410,11 @@ TEST_F(Channel, NothingIsWrittenFartherThanTwoLeadsBeyondTheSlowestCopy) {
   core->set_replicas(true, 0);  // as of a replica that has received nothing of this motion
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
   for (int i = 0; i < 50; ++i) round();
-  // Parameter 000900: the lead is 32 cycles. Two of them are allowed, frame by frame of 16.
+  // Parameter 000900: the lead is 32 cycles. Two of them are allowed, batch by batch of 16.
   EXPECT_EQ(drive.next - begin, 64u);
   core->set_replicas(true, begin + 10);
   for (int i = 0; i < 50; ++i) round();
-  EXPECT_EQ(drive.next - begin, 64u) << "74 cycles do not hold another whole frame of 16";
+  EXPECT_EQ(drive.next - begin, 64u) << "74 cycles do not hold another whole batch of 16";
   core->set_replicas(true, begin + 16);
   for (int i = 0; i < 50; ++i) round();
   EXPECT_EQ(drive.next - begin, 80u);
@@ -431,6 +431,8 @@ TEST_F(Channel, HandsOverAtRestAndTheNextProcessHasTheSameStateAndProgram) {
   load("G90\nG1 X100 Y50 F6000\nM30\n");
   ask(CommandKind::FEED_OVERRIDE, "", 0.5);
   ask(CommandKind::SINGLE_BLOCK, "", 1);
+  ask(CommandKind::DRY_RUN, "", 1), ask(CommandKind::AUXILIARY_LOCK, "", 1),
+      ask(CommandKind::BLOCK_SKIP, "", 5);
   const auto before = core->state();
   const auto left = core->hand_over();
   ASSERT_TRUE(left);
@@ -447,7 +449,8 @@ TEST_F(Channel, HandsOverAtRestAndTheNextProcessHasTheSameStateAndProgram) {
   EXPECT_EQ(after.program, "part.nc");
   EXPECT_EQ(after.mode, before.mode);
   EXPECT_EQ(after.feed_override, 0.5);
-  EXPECT_TRUE(after.single_block);
+  EXPECT_TRUE(after.single_block && after.dry_run && after.auxiliary_lock);
+  EXPECT_EQ(after.block_skip, 5);
   EXPECT_EQ(after.work_offset, before.work_offset);
   EXPECT_EQ(after.reset_count, before.reset_count);
 

@@ -82,5 +82,27 @@ TEST_F(ExplicitState, IsNotGivenWhileFramesOfAnMdiLineAct) {
   EXPECT_EQ(given().front(), '{');
 }
 
+TEST_F(ExplicitState, HasTheProgramBehindATemporaryOne) {
+  load("G0 X1\nM30\n");
+  subprograms["servo-test.tmp.nc"] = {"M30\n", 4};
+  store();
+  ASSERT_TRUE(ask(CommandKind::SELECT_PROGRAM, "servo-test.tmp.nc").accepted);
+  continue_from(given());
+  ask(CommandKind::RESET);
+  EXPECT_EQ(core->state().program, "part.nc");
+}
+
+TEST_F(ExplicitState, HasWhatTheRecordOfTheProgramHas) {
+  load("G0 X1\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  ASSERT_TRUE(ask({.command = CommandKind::TOOL_IN_SPINDLE, .tool = 1}).accepted);
+  const auto before = core->running_program();
+  ASSERT_GT(before.tool_since, 0u);
+  ASSERT_EQ(before.parts, 1u);
+  continue_from(given());
+  EXPECT_EQ(core->running_program(), before);
+}
+
 }  // namespace
 }  // namespace trunnion::channel

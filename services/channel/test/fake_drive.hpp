@@ -38,7 +38,7 @@ class FakeDrive {
       mode = DriveMode::FOLLOWING;
     }
   }
-  void put(const idl::stream::PathFrame& frame) { queue_.push_back(frame); }
+  void put(const idl::stream::PathBatch& batch) { queue_.push_back(batch); }
   /// A skip input that axis `axis` switches on where it passes `position` upwards.
   struct Switch {
     std::uint8_t input = 1;
@@ -48,10 +48,10 @@ class FakeDrive {
   std::optional<Switch> switch_;
   /// Following error of the first axis in a cycle, mm; empty: the axes follow without error.
   std::function<double(std::uint64_t cycle, const std::vector<double>& row)> lag;
-  /// Executes frames, at most `cycles` setpoints' worth, and reports.
-  idl::stream::FeedbackFrame run(std::uint64_t cycles = ~0ull) {
+  /// Executes batches, at most `cycles` setpoints' worth, and reports.
+  idl::stream::Feedback run(std::uint64_t cycles = ~0ull) {
     std::uint64_t done = 0;
-    idl::stream::FeedbackFrame feedback;
+    idl::stream::Feedback feedback;
     while (mode == DriveMode::FOLLOWING && !queue_.empty() && done < cycles) {
       const auto& f = queue_.front();
       if (f.epoch == echo_.epoch) {
@@ -97,7 +97,7 @@ class FakeDrive {
     echo_.active = false;
     echo_.request = 0;
   }
-  /// Frames that are not executed are lost with their stage; the consistent cut stays.
+  /// Batches that are not executed are lost with their stage; the consistent cut stays.
   void lose_queue() { queue_.clear(); }
 
   DriveMode mode = DriveMode::FOLLOWING;
@@ -125,7 +125,7 @@ class FakeDrive {
 
   std::optional<idl::stream::SkipEdge> edge_;
   std::vector<double> position_, actual_;
-  std::deque<idl::stream::PathFrame> queue_;
+  std::deque<idl::stream::PathBatch> queue_;
   idl::stream::ChannelEcho echo_;
 };
 

@@ -20,10 +20,12 @@ HandOver example() {
   h.modal.transformation = language::Transformation::rtcp;
   h.modal.tool_length = 0.1 + 0.2;  // not a short decimal
   h.modal.tilt.active = true;
+  h.modal.tilt.solution = 2;
   h.modal.tilt.matrix[5] = -1.0 / 3.0;
   h.tool = 4;
-  h.feed_override = 0.7;
-  h.single_block = true;
+  h.switches.feed_override = 0.7;
+  h.switches.single_block = h.switches.dry_run = h.switches.auxiliary_lock = true;
+  h.switches.block_skip = 5;
   h.reset_count = 9;
   return h;
 }
@@ -39,13 +41,35 @@ TEST(HandOver, IsReadBackToTheBit) {
   EXPECT_EQ(read.modal.work_offset, 3);
   EXPECT_EQ(read.modal.transformation, language::Transformation::rtcp);
   EXPECT_EQ(read.modal.tool_length, 0.1 + 0.2);
-  EXPECT_EQ(read.modal.tilt.matrix[5], -1.0 / 3.0);
+  EXPECT_EQ(read.modal, example().modal);
   EXPECT_EQ(read.tool, 4u);
-  EXPECT_EQ(read.feed_override, 0.7);
-  EXPECT_TRUE(read.single_block);
+  EXPECT_EQ(read.switches.feed_override, 0.7);
+  EXPECT_TRUE(read.switches.single_block && read.switches.dry_run && read.switches.auxiliary_lock);
+  EXPECT_EQ(read.switches.block_skip, 5);
   EXPECT_EQ(read.reset_count, 9u);
   // Every field that is written is read: the text of what was read is the same text.
   EXPECT_EQ(write_hand_over(read, "b1"), write_hand_over(example(), "b1"));
+}
+
+// One that is older writes every field that it knows, and refuses a line that it does not know.
+TEST(HandOver, OfAnotherBuildIsRead) {
+  HandOver read;
+  ASSERT_TRUE(
+      read_hand_over("boot b\nmode 1\nprogram part 7.nc\ntool 4\nfeed_override 0.7\nrapid_override 1\n"
+                     "single_block 1\nmodal.plane 2\nmodal.absolute 0\nmodal.tilt.active 1\n"
+                     "modal.tilt.origin.2 -5\nmodal.tilt.matrix.5 -0.25\n",
+                     "f", "b", read));
+  EXPECT_EQ(read.mode, idl::channel::Mode::MDI);
+  EXPECT_EQ(read.program, "part 7.nc");
+  EXPECT_EQ(read.tool, 4u);
+  EXPECT_EQ(read.switches.feed_override, 0.7);
+  EXPECT_TRUE(read.switches.single_block);
+  EXPECT_EQ(read.modal.plane, language::Plane::yz);
+  EXPECT_FALSE(read.modal.absolute);
+  EXPECT_TRUE(read.modal.tilt.active);
+  EXPECT_EQ(read.modal.tilt.origin[2], -5);
+  EXPECT_EQ(read.modal.tilt.matrix[5], -0.25);
+  EXPECT_EQ(write_hand_over({}, "b"), "boot b\n") << "nothing that an older build may not know";
 }
 
 TEST(HandOver, OfAnotherStartOfTheClusterIsNotUsed) {

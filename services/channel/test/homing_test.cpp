@@ -201,5 +201,65 @@ TEST_F(HomedAxis, AnAxisWithoutASwitchIsMovedToItsReferencePosition) {
   EXPECT_FALSE(core->take_stream_request()) << "it is there already";
 }
 
+TEST(Homing, IsNeededOfAnAxisWithoutAReferenceOrWithAHomeSwitch) {
+  auto parameters = *testing::three_axes();
+  parameters.values[101920] = {1, ""};
+  Homing homing;
+  EXPECT_TRUE(homing.needed(1, &parameters));
+  EXPECT_FALSE(homing.needed(0, &parameters));
+  EXPECT_FALSE(homing.needed(1, nullptr));
+  homing.set_unreferenced({2});
+  EXPECT_TRUE(homing.needed(2, nullptr));
+  EXPECT_FALSE(homing.referenced(2));
+  EXPECT_TRUE(homing.referenced(0));
+}
+
+/// Without a channel core around it.
+struct HomingAlone : ::testing::Test {
+  HomingAlone() { report(DriveMode::FOLLOWING); }
+  void report(DriveMode mode) {
+    drive.mode = mode;
+    link.on_feedback(drive.run(0));
+  }
+  void demand() {
+    homing.begin(1);
+    homing.advance(link, true);
+    const auto request = link.take_request();
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->kind, StreamRequestKind::HOME);
+    EXPECT_EQ(request->axis, 1u);
+    drive.request(*request);
+    report(DriveMode::HOMING);
+  }
+  testing::FakeDrive drive{3};
+  StreamLink link{0};
+  Homing homing;
+};
+
+TEST_F(HomingAlone, IsOverWhenTheDriveNoLongerSearches) {
+  demand();
+  homing.advance(link, true);
+  EXPECT_TRUE(homing.active());
+  EXPECT_FALSE(link.take_request()) << "once";
+  report(DriveMode::FOLLOWING);
+  homing.advance(link, true);
+  EXPECT_FALSE(homing.active());
+}
+
+TEST_F(HomingAlone, IsActiveUntilTheDriveHasBrakedWhenItWasEnded) {
+  demand();
+  homing.end(link, true);
+  const auto request = link.take_request();
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->kind, StreamRequestKind::LEAVE);
+  EXPECT_TRUE(homing.active());
+  EXPECT_TRUE(homing.ended());
+  drive.request(*request);
+  report(DriveMode::FOLLOWING);
+  homing.advance(link, true);
+  EXPECT_FALSE(homing.active());
+  EXPECT_FALSE(link.take_request()) << "it is not searched again by itself";
+}
+
 }  // namespace
 }  // namespace trunnion::channel

@@ -27,21 +27,21 @@ struct Writer : ::testing::Test {
     ASSERT_EQ(writer.link().state(), LinkState::active);
   }
   /// A batch of `count` cycles, X counting on by `step`.
-  idl::stream::PathFrame batch(std::uint32_t count, double step, bool holding = false) {
-    idl::stream::PathFrame frame;
-    writer.open(frame);
-    for (std::uint32_t i = 0; i < count && !frame.ends; ++i) {
+  idl::stream::PathBatch batch(std::uint32_t count, double step, bool holding = false) {
+    idl::stream::PathBatch written;
+    writer.open(written);
+    for (std::uint32_t i = 0; i < count && !written.ends; ++i) {
       StreamCycle cycle;
       cycle.setpoint[0] = x += step;
       cycle.shown.line = cycle.line = 5;
       cycle.shown.sequence = 9;
       cycle.stopped = step == 0;
       cycle.holding = holding;
-      writer.add(frame, cycle);
+      writer.add(written, cycle);
     }
-    writer.close(frame, path, false, machine.revision(), 0);
-    writer.written(frame);
-    return frame;
+    writer.close(written, path, false, machine.revision(), 0);
+    writer.written(written);
+    return written;
   }
 
   channel_setup::ChannelSetup machine{0};
@@ -135,10 +135,10 @@ TEST_F(Writer, ABatchNamesItsCyclesItsFrameAndTheRevision) {
 TEST_F(Writer, AHoldEndsWhenTheSetpointsHaveBeenEqualForMoreThanThreeCycles) {
   become_active();
   batch(4, 0.1);
-  const auto frame = batch(16, 0, true);
-  EXPECT_TRUE(frame.ends);
+  const auto written = batch(16, 0, true);
+  EXPECT_TRUE(written.ends);
   // The first equals the last that moved; it and three more are a standstill, not yet more than three.
-  EXPECT_EQ(frame.count, 4u);
+  EXPECT_EQ(written.count, 4u);
   EXPECT_EQ(writer.link().state(), LinkState::ending);
   EXPECT_FALSE(writer.may_write(8, lead));
 }
@@ -146,9 +146,9 @@ TEST_F(Writer, AHoldEndsWhenTheSetpointsHaveBeenEqualForMoreThanThreeCycles) {
 TEST_F(Writer, ADriveThatCountsCyclesAgainGetsANewEpoch) {
   // Killed after it had published the last cycles and before it stored them: the numbers of requests agree.
   become_active();
-  auto frame = batch(8, 0.1);
+  auto written = batch(8, 0.1);
   const auto last = batch(16, 0, true);
-  drive.put(frame), drive.put(last);
+  drive.put(written), drive.put(last);
   writer.link().on_feedback(drive.run());
   ASSERT_EQ(writer.link().state(), LinkState::idle);
   const auto epoch = writer.link().epoch();

@@ -136,7 +136,7 @@ TEST_F(Channel, TheLineInWhichTheControlWasSwitchedOffIsOffered) {
   core->set_tools({});
   core->set_offsets({});
   core->set_ready(true);
-  core->set_interrupted({"part.nc", 3, 77, 3});
+  core->set_interrupted({{"part.nc", 3, 77, 3}});
   store();
   core->on_feedback(drive.run(0));
   core->recover();

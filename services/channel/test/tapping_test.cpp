@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "channel_fixture.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -162,7 +163,18 @@ TEST_F(Tap, AMachineWithoutASpindleRefusesItBeforeTheToolIsInTheHole) {
   start("G90 G94 S400 G0 Z5\nG99 G84 X0 Y0 Z-10 R2 F500\nM30\n");
   run();
   ASSERT_FALSE(events.empty());
-  EXPECT_EQ(events.back().number, 1125u);
+  EXPECT_EQ(events.back().alarm, &alarm::tapping_spindle_missing);
+  ASSERT_FALSE(drive.rows.empty());
+  EXPECT_EQ(drive.rows.back()[2], 2);
+}
+
+TEST_F(Tap, AHoleBeyondTheTravelEndsTheProgramAboveIt) {
+  start("G90 G94 S400 G0 Z5\nG99 G84 X0 Y0 Z-410 R2 F500\nM30\n");
+  run(100);
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().alarm, &alarm::travel_limit);
+  ASSERT_FALSE(drive.rows.empty());
   EXPECT_EQ(drive.rows.back()[2], 2);
 }
 
@@ -177,7 +189,8 @@ TEST_F(Tap, AfterTheStreamWasLostInTheThreadTheProgramCannotBeResumed) {
   ask(CommandKind::CYCLE_START);
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
-  EXPECT_EQ(events.back().number, 1119u);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().alarm, &alarm::not_resumable);
   EXPECT_EQ(drive.rows.size(), moved) << "nothing moved again";
 }
 

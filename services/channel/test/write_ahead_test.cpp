@@ -51,9 +51,9 @@ struct WriteAhead : Channel {
     std::size_t made = 0;
     for (int i = 0; i < 100000 && core->run_state() != RunState::IDLE; ++i) {
       begin_round();
-      idl::stream::PathFrame frame;
-      while (core->produce(frame)) {
-        drive.put(frame);
+      idl::stream::PathBatch out;
+      while (core->produce(out)) {
+        drive.put(out);
         if (const auto found = changes.find(core->link().next()); found != changes.end()) {
           found->second();
           ++made;

@@ -13,7 +13,7 @@ machine::Parameters one_axis() {
 }
 
 std::vector<double> run(CompensationCore& core, const std::vector<double>& x) {
-  idl::stream::AxisFrame in, out;
+  idl::stream::AxisBatch in, out;
   in.axes = {0};
   in.count = static_cast<std::uint32_t>(x.size());
   in.setpoints = x;
@@ -112,10 +112,10 @@ machine::Parameters gantry() {
   return p;
 }
 
-idl::stream::AxisFrame run_gantry(const machine::Parameters& p, const std::vector<double>& setpoints) {
+idl::stream::AxisBatch run_gantry(const machine::Parameters& p, const std::vector<double>& setpoints) {
   CompensationCore core;
   core.configure(p, 0);
-  idl::stream::AxisFrame in, out;
+  idl::stream::AxisBatch in, out;
   in.axes = {0, 1};
   in.count = static_cast<std::uint32_t>(setpoints.size() / 2);
   in.setpoints = setpoints;

@@ -34,7 +34,7 @@ struct Channel {
   }
 
   CompensationCore core;
-  idl::stream::AxisFrame in, out;
+  idl::stream::AxisBatch in, out;
 };
 
 }  // namespace trunnion::compensation

@@ -141,7 +141,7 @@ TEST(VolumetricStage, TheSlaveOfAGantryIsCorrectedWithItsMaster) {
     set(306000, 1), set(306001, 0.004), set(306002, 1);
     CompensationCore core;
     core.configure(p, 0);
-    idl::stream::AxisFrame in, out;
+    idl::stream::AxisBatch in, out;
     in.axes = {0, 1, 2};
     const auto x = there_and_back(800);
     in.setpoints = rows_of_x(x);

@@ -14,17 +14,17 @@ struct NoRows : EncoderRowSink {
 };
 
 void probe(benchmark::State& state, bool on, bool worn) {
-  truth::MachineOutline machine;
+  machine::MachineOutline machine;
   machine.design.table_1 = geometry::RotaryAxis{truth::Vec3(-1, 0, 0), truth::Vec3(0, 0.1, 0), 0};
   machine.design.table_2 = geometry::RotaryAxis{truth::Vec3(0, 0, -1), truth::Vec3(-200, -190, -516), 2};
   for (const std::size_t i : {0u, 1u, 2u}) machine.axes[i] = {true, -400, 400};
   const auto errors = worn ? truth::draw_machine(truth::grades()[1], 7, machine) : truth::GeometryTruth{};
-  truth::TouchProbeTruth truth;
+  touch_probe::TouchProbeTruth truth;
   truth.lobing = 0.001;
   ProbeInput input({machine.design,
                     std::get<truth::TrueGeometry>(truth::TrueGeometry::make(machine.design, errors)),
                     truth,
-                    {truth::SphereGauge{truth::Vec3(0, 0, -500), 12.5, -truth::Vec3::UnitZ(), 5, 60}}});
+                    {touch_probe::SphereGauge{truth::Vec3(0, 0, -500), 12.5, -truth::Vec3::UnitZ(), 5, 60}}});
   machine::Parameters p;
   const char* const names[] = {"X", "Y", "Z", "A", "C"};
   const std::uint32_t letters[] = {1, 2, 3, 4, 6};

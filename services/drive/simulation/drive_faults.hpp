@@ -31,6 +31,7 @@ class DriveFaults {
   void reset();
   void status(std::vector<AxisStatus>& out) const;
 
+  /// No field, configure() sets it: axes_. No field, before() sets it in every period: before_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("any", self.any_), visit("periods", self.periods_), visit("faulty", self.faulty_);

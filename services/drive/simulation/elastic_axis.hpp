@@ -45,6 +45,7 @@ class ElasticAxis {
   double command() const { return command_; }
   double torque_command() const { return loop_.torque(); }
   double position_error() const { return position_error_; }
+  void set_position_error(double error) { position_error_ = error; }
   double load_speed() const { return plant_.load_speed(); }
   double beam_position() const { return plant_.load(); }
   bool homed() const { return homed_; }
@@ -60,6 +61,9 @@ class ElasticAxis {
   const truth::Encoder& motor_encoder() const { return motor_; }
   const truth::Encoder& load_encoder() const { return load_; }
 
+  /// No fields, configure() sets them: p_, truth_, load_factor_. No fields, a period sets them and ends
+  /// with them: dual_loop_time_, setpoint_, h_, start_velocity_, test_. No field, SimulatedAxis has it
+  /// where it counts: position_error_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("loop", self.loop_), visit("plant", self.plant_);

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
+#include "compensation/error_model.hpp"
 #include "machine/gantry_pairs.hpp"
 #include "simulated_axis.hpp"
-#include "volumetric/error_model.hpp"
 
 namespace trunnion::drive {
 

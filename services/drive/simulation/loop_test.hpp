@@ -31,19 +31,19 @@ class LoopTest {
     amplitude_ = request.amplitude, first_ = request.first_frequency, last_ = request.last_frequency;
     period_ = std::max<std::uint64_t>(2, static_cast<std::uint64_t>(std::llround(request.period / h)));
     decimation_ = request.decimation, h_ = h;
-    motor_watch_.start(request.vibration_limit);
-    load_watch_.start(request.vibration_limit);
+    run_.motor_watch.start(request.vibration_limit);
+    run_.load_watch.start(request.vibration_limit);
   }
   /// Until the next call excitation and samples are on, or off.
-  void activate(bool active) { active_ = active; }
-  void fall_back() { fallen_back_ = true; }
-  const ServoParameters& parameters() const { return fallen_back_ ? fallback_ : trial_; }
+  void activate(bool active) { run_.active = active; }
+  void fall_back() { run_.fallen_back = true; }
+  const ServoParameters& parameters() const { return run_.fallen_back ? fallback_ : trial_; }
 
   /// Of the next period of the speed loop, in the unit of `signal`.
   double excitation() const {
     using idl::servo::TestSignal;
-    if (!active_ || signal_ == TestSignal::NONE || fallen_back_) return 0;
-    const std::uint64_t place = count_ % period_;
+    if (!run_.active || signal_ == TestSignal::NONE || run_.fallen_back) return 0;
+    const std::uint64_t place = run_.count % period_;
     if (signal_ == TestSignal::SPEED_STEP || signal_ == TestSignal::TORQUE_STEP)
       return place >= period_ / 2 ? amplitude_ : 0;
     const double t = static_cast<double>(place) * h_, whole = static_cast<double>(period_) * h_;
@@ -54,40 +54,48 @@ class LoopTest {
     return signal_ == idl::servo::TestSignal::SPEED_CHIRP || signal_ == idl::servo::TestSignal::SPEED_STEP;
   }
   void sample(const LoopSample& s) {
-    const bool motor = motor_watch_.step(s.setpoint - s.motor, h_);
-    const bool load = load_watch_.step(s.setpoint - s.load, h_);
-    vibrates_ = vibrates_ || motor || load;
-    if (!active_) return;
-    if (count_++ % decimation_ != 0) return;
-    values_.insert(values_.end(),
-                   {s.setpoint, s.feedback, s.speed_set, s.speed, s.torque, s.excitation, s.motor, s.load});
+    const bool motor = run_.motor_watch.step(s.setpoint - s.motor, h_);
+    const bool load = run_.load_watch.step(s.setpoint - s.load, h_);
+    run_.vibrates = run_.vibrates || motor || load;
+    if (!run_.active) return;
+    if (run_.count++ % decimation_ != 0) return;
+    run_.values.insert(run_.values.end(), {s.setpoint, s.feedback, s.speed_set, s.speed, s.torque,
+                                           s.excitation, s.motor, s.load});
   }
   /// Continues as `other`, whose fields() were read.
-  void take_state(const LoopTest& other) {
-    count_ = other.count_, active_ = other.active_, fallen_back_ = other.fallen_back_;
-    vibrates_ = other.vibrates_, values_ = other.values_;
-    motor_watch_ = other.motor_watch_, load_watch_ = other.load_watch_;
-  }
-  bool vibrates() const { return vibrates_; }
-  double vibration() const { return std::max(motor_watch_.largest(), load_watch_.largest()); }
-  std::vector<double>& values() { return values_; }
-  const std::vector<double>& values() const { return values_; }
+  void take_state(const LoopTest& other) { run_ = other.run_; }
+  bool vibrates() const { return run_.vibrates; }
+  double vibration() const { return std::max(run_.motor_watch.largest(), run_.load_watch.largest()); }
+  std::vector<double>& values() { return run_.values; }
+  const std::vector<double>& values() const { return run_.values; }
 
+  /// No fields, start() sets them again: trial_, fallback_, signal_, amplitude_, first_, last_, h_,
+  /// period_, decimation_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("count", self.count_), visit("active", self.active_), visit("fallen_back", self.fallen_back_);
-    visit("vibrates", self.vibrates_), visit("values", self.values_);
-    visit("motor_watch", self.motor_watch_), visit("load_watch", self.load_watch_);
+    Run::fields(self.run_, visit);
   }
 
  private:
+  /// What changes while the test runs.
+  struct Run {
+    std::uint64_t count = 0;
+    bool active = false, fallen_back = false, vibrates = false;
+    std::vector<double> values;
+    VibrationWatch motor_watch, load_watch;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("count", self.count), visit("active", self.active), visit("fallen_back", self.fallen_back);
+      visit("vibrates", self.vibrates), visit("values", self.values);
+      visit("motor_watch", self.motor_watch), visit("load_watch", self.load_watch);
+    }
+  };
   ServoParameters trial_, fallback_;
   idl::servo::TestSignal signal_ = idl::servo::TestSignal::NONE;
   double amplitude_ = 0, first_ = 0, last_ = 0, h_ = 1;
-  std::uint64_t period_ = 2, decimation_ = 1, count_ = 0;
-  bool active_ = false, fallen_back_ = false, vibrates_ = false;
-  VibrationWatch motor_watch_, load_watch_;
-  std::vector<double> values_;
+  std::uint64_t period_ = 2, decimation_ = 1;
+  Run run_;
 };
 
 }  // namespace trunnion::drive

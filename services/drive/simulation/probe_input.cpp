@@ -33,7 +33,7 @@ void ProbeInput::configure(const machine::Parameters& parameters,
   }
 }
 
-truth::ProbePose ProbeInput::pose(const std::vector<SimulatedAxis>& servos) const {
+touch_probe::ProbePose ProbeInput::pose(const std::vector<SimulatedAxis>& servos) const {
   truth::MachinePose machine;
   for (std::size_t i = 0; i < columns_.size(); ++i)
     if (columns_[i] >= 0) machine.positions[i] = servos[static_cast<std::size_t>(columns_[i])].load();
@@ -45,7 +45,7 @@ truth::ProbePose ProbeInput::pose(const std::vector<SimulatedAxis>& servos) cons
         machine.positions[geometry_.errors().beam->axis];
   machine.temperatures = warm_up_.temperatures();
   const auto tool = geometry_.pose(machine);
-  truth::ProbePose out{tool.tip, truth::Vec3::UnitX(), tool.axis};
+  touch_probe::ProbePose out{tool.tip, truth::Vec3::UnitX(), tool.axis};
   if (lobes_) {
     geometry::Angles degrees{};
     std::copy(machine.positions.begin() + 3, machine.positions.end(), degrees.begin());

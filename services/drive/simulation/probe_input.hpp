@@ -8,8 +8,8 @@
 #include "drive_hardware.hpp"
 #include "simulated_axis.hpp"
 #include "simulated_spindle.hpp"
-#include "truth/probe_orientation.hpp"
-#include "truth/touch_probe.hpp"
+#include "touch_probe/probe_orientation.hpp"
+#include "touch_probe/touch_probe.hpp"
 
 namespace trunnion::drive {
 
@@ -17,14 +17,14 @@ namespace trunnion::drive {
 struct ProbeSetup {
   geometry::ChainParameters design;  ///< of the machine as it was delivered
   truth::TrueGeometry geometry;
-  truth::TouchProbeTruth probe;
-  std::vector<truth::Solid> solids;
+  touch_probe::TouchProbeTruth probe;
+  std::vector<touch_probe::Solid> solids;
 };
 
 /// What a restart of the drive's process does not change.
 struct ProbeMemory {
   truth::Temperatures temperatures{};
-  truth::TouchMemory touches;
+  touch_probe::TouchMemory touches;
 };
 
 class ProbeInput {
@@ -45,6 +45,8 @@ class ProbeInput {
   /// The signal of the probe.
   bool on() const { return probe_.signal(); }
 
+  /// No fields, the constructor and configure() set them: geometry_, orientation_, lobes_, warms_,
+  /// columns_, slave_column_, slave_sign_, slave_zero_, length_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("probe", self.probe_), visit("warm_up", self.warm_up_), visit("switched_on", self.switched_on_);
@@ -52,16 +54,16 @@ class ProbeInput {
   }
 
  private:
-  truth::ProbePose pose(const std::vector<SimulatedAxis>& servos) const;
+  touch_probe::ProbePose pose(const std::vector<SimulatedAxis>& servos) const;
 
   truth::TrueGeometry geometry_;
-  truth::ProbeOrientation orientation_;
+  touch_probe::ProbeOrientation orientation_;
   bool lobes_ = false, warms_ = false;
   std::array<int, truth::axis_count> columns_;  // of X Y Z A .. W; -1: none
   int slave_column_ = -1;                       // of the beam's slave, with its sign and zero
   double slave_sign_ = 1, slave_zero_ = 0;
   double length_ = 0;
-  truth::TouchProbe probe_;
+  touch_probe::TouchProbe probe_;
   truth::WarmUp warm_up_;
   bool switched_on_ = false;
   std::array<int, truth::axis_count> approach_{};

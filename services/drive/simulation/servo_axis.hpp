@@ -40,9 +40,12 @@ class ServoAxis {
   double command() const { return command_; }
   double torque_command() const { return loop_.torque(); }
   double position_error() const { return position_error_; }  ///< in the newest period of the speed loop
+  void set_position_error(double error) { position_error_ = error; }
   double load_speed() const { return velocity_; }
   double beam_position() const { return position_; }
 
+  /// No field, configure() sets it: p_. No fields, a period sets them: setpoint_, h_, start_velocity_,
+  /// test_. No field, SimulatedAxis has it where it counts: position_error_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("command", self.command_);

@@ -69,6 +69,7 @@ class ServoLoop {
   /// Setpoint of the speed loop in the newest step, the excitation included.
   double speed_set() const { return speed_set_; }
 
+  /// No field, step() sets it: speed_set_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("torque", self.torque_);

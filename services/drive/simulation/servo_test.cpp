@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo_test.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "machine/parameter_constants.hpp"
 
@@ -31,9 +32,7 @@ bool may_be_tried(std::uint32_t number) {
 }
 
 std::string outside(const char* name, double value, double low, double high, const char* unit) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%s %g is not within %g .. %g %s", name, value, low, high, unit);
-  return text;
+  return fmt::format("{} {:g} is not within {:g} .. {:g} {}", name, value, low, high, unit);
 }
 }  // namespace
 

@@ -32,6 +32,7 @@ class ServoTest : public ServoTester {
   /// It is over: a vibration, the end of the duration. Cyclic.
   void end_period();
 
+  /// No fields, configure() and continue_test() set them: parameters_, axes_, columns_, period_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("request", self.request_), visit("running", self.running_), visit("phase", self.phase_);

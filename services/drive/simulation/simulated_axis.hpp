@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <type_traits>
 
 #include "elastic_axis.hpp"
 #include "servo_axis.hpp"
@@ -22,6 +23,8 @@ class SimulatedAxis {
       elastic_->configure(truth != nullptr ? *truth : truth::DriveTruth{}, parameters);
     }
   }
+  /// The compensation of its gantry begins with the position error of the period before.
+  void keep_position_error(bool kept) { keeps_position_error_ = kept; }
   void place(double position) { elastic_ ? elastic_->place(position) : servo_.place(position); }
   /// `test`: of this axis, or null.
   void step(const AxisSetpoint& setpoint, double dt, LoopTest* test = nullptr) {
@@ -60,17 +63,23 @@ class SimulatedAxis {
   double encoder_difference() const { return elastic_ ? elastic_->encoder_difference() : 0; }
   bool homed() const { return !elastic_ || elastic_->homed(); }
 
+  /// No field, configure() of the hardware sets it: keeps_position_error_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     if (self.elastic_)
       visit("elastic", *self.elastic_);
     else
       ServoAxis::fields(self.servo_, visit);
+    double error = self.position_error();
+    if (!std::is_const_v<Self> || self.keeps_position_error_) visit("position_error", error);
+    if constexpr (!std::is_const_v<Self>)
+      self.elastic_ ? self.elastic_->set_position_error(error) : self.servo_.set_position_error(error);
   }
 
  private:
   ServoAxis servo_;
   std::optional<ElasticAxis> elastic_;
+  bool keeps_position_error_ = false;
 };
 
 }  // namespace trunnion::drive

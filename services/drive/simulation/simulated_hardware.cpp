@@ -19,6 +19,7 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
     const auto number = axes[i].number;
     const auto truth = truth_.find(axes[i].name);
     servos_[i].configure(ServoParameters::from(p, number), truth == truth_.end() ? nullptr : &truth->second);
+    servos_[i].keep_position_error(false);
     if (first) servos_[i].place(p.get(parameter::reference_coordinate, number));
     home_switches_[i].position = p.get(parameter::reference_coordinate, number);
     home_switches_[i].direction = p.integer(parameter::homing_direction, number);
@@ -32,6 +33,9 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
   for (const auto& link : links_)
     for (std::size_t i = 0; i < axes.size(); ++i)
       if (link.active() && link.has(i)) linked_[i] = 1;
+  for (const auto& link : links_)
+    for (const auto& slave : link.slaves())
+      servos_[static_cast<std::size_t>(slave.pair.slave_column)].keep_position_error(slave.compensation > 0);
   test_.configure(p, axes, period);
   spindles_.resize(spindles.size());
   for (std::size_t i = 0; i < spindles.size(); ++i) {

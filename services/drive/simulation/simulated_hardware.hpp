@@ -46,6 +46,8 @@ class SimulatedHardware : public DriveHardware {
   ServoTester* tester() override { return &test_; }
   void exchange(const SetpointRow& row, DriveStatus& status, EncoderRowSink& rows) override;
 
+  /// No fields, the constructor and configure() set them: period_, truth_, spindle_truth_, beam_, links_,
+  /// linked_. No fields, every use sets them before: kept_, encoder_, angle_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("servos", self.servos_), visit("spindles", self.spindles_);
@@ -63,6 +65,7 @@ class SimulatedHardware : public DriveHardware {
     bool on = false;
     double latch = 0;
 
+    /// No fields, configure() sets them: position, direction.
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
       visit("on", self.on), visit("latch", self.latch);

@@ -22,6 +22,7 @@ class SimulatedSpindle {
   double speed() const { return speed_; }
   double angle() const { return angle_; }
 
+  /// No fields, configure() sets them: truth_, period_, speed_step_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("speed", self.speed_);

@@ -21,6 +21,7 @@ class SkipInputs {
   /// That are on at the end of the newest period: bit 0 = input 1.
   std::uint8_t on() const;
 
+  /// No field, configure() sets it: inputs_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("load", self.load_);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The figures that documents name are those of the code.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 
@@ -18,25 +18,20 @@ std::string document(const std::string& name) {
   return text.str();
 }
 
-std::string seconds(const char* format, double value) {
-  char text[120];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 TEST(Documents, TheWaitForAMissingSetpointInVirtualTimeIsTheOneOfTheCode) {
-  EXPECT_NE(document("architecture.md")
-                .find(seconds("In virtual time it waits %g s of wall time first", missing_setpoint_timeout)),
-            std::string::npos);
+  EXPECT_NE(
+      document("architecture.md")
+          .find(fmt::format("In virtual time it waits {:g} s of wall time first", missing_setpoint_timeout)),
+      std::string::npos);
 }
 
 TEST(Documents, TheTimeWithoutASignOfThePlcIsTheOneOfTheCode) {
-  EXPECT_NE(document("faults.md").find(seconds("%g s without a message of the PLC", plc_timeout)),
+  EXPECT_NE(document("faults.md").find(fmt::format("{:g} s without a message of the PLC", plc_timeout)),
             std::string::npos);
 }
 
 TEST(Documents, TheTimeThatDrivesTakeToComeOnIsTheOneOfTheCode) {
-  EXPECT_NE(document("hal.md").find(seconds("comes again %g s after the enable", drives_on_timeout)),
+  EXPECT_NE(document("hal.md").find(fmt::format("comes again {:g} s after the enable", drives_on_timeout)),
             std::string::npos);
 }
 

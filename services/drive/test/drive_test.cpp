@@ -12,7 +12,7 @@
 namespace trunnion::drive {
 namespace {
 
-using idl::stream::AxisFrame;
+using idl::stream::AxisBatch;
 using idl::stream::StreamRequestKind;
 
 DriveCore simulated() { return DriveCore(std::make_unique<SimulatedHardware>()); }
@@ -35,7 +35,7 @@ struct Fixture : testing::Test {
   static double path(std::uint64_t n) { return n < 100 ? 0.1 * n * n / 200.0 : 0.1 * (n - 50.0); }
   void feed(std::uint64_t from, std::uint64_t to, bool end = false) {
     for (std::uint64_t first = from; first < to; first += 8) {
-      AxisFrame f;
+      AxisBatch f;
       f.epoch = epoch, f.first = first, f.count = 8, f.starts = first == 0, f.revision = 1;
       f.axes = {0, 1};
       f.ends = end && first + 8 >= to;
@@ -46,7 +46,7 @@ struct Fixture : testing::Test {
     }
   }
   void run(bool give_up = false, int most = 100000) {
-    idl::stream::FeedbackFrame f;
+    idl::stream::Feedback f;
     while (core.can_step(give_up) && most-- > 0) {
       core.step();
       core.fill(f);
@@ -109,9 +109,9 @@ TEST_F(Fixture, AResumeWaitsForNoMoreThanTheChannelsCreditLetsItWrite) {
   ASSERT_EQ(core.mode(), Mode::HELD);
   ASSERT_LE(core.next() + 16, 160u + 16u);
   begin(StreamRequestKind::RESUME);
-  // Lead 32 and whole frames of 16: with 17 cycles at hand another frame would be beyond the credit.
+  // Lead 32 and whole batches of 16: with 17 cycles at hand another batch would be beyond the credit.
   const auto put = [&](std::uint64_t first, std::uint64_t count) {
-    AxisFrame f;
+    AxisBatch f;
     f.epoch = epoch, f.first = first, f.count = static_cast<std::uint32_t>(count), f.revision = 1;
     f.axes = {0, 1};
     for (std::uint64_t n = first; n < first + count; ++n)
@@ -159,7 +159,7 @@ TEST_F(Fixture, StoppingAndResumingOnACircleAtTheLimitNeedsAtMostTwiceTheLimit) 
   const auto angle = [](double n) { return 0.019 * (n < 100 ? n * n / 200 : n - 50); };
   const auto circle = [&](std::uint64_t from, std::uint64_t to) {
     for (std::uint64_t first = from; first < to; first += 8) {
-      AxisFrame f;
+      AxisBatch f;
       f.epoch = epoch, f.first = first, f.count = 8, f.starts = first == 0, f.revision = 1, f.axes = {0, 1};
       for (std::uint64_t n = first; n < first + 8; ++n) {
         const double a = angle(static_cast<double>(n));
@@ -225,7 +225,7 @@ TEST_F(Fixture, EmergencyStopStopsOnThePathAndNothingMovesUntilANewEpoch) {
   EXPECT_EQ(core.mode(), Mode::FOLLOWING);
   EXPECT_EQ(core.next(), cycle);
   run();
-  EXPECT_NEAR(core.commands()[0], x, 1e-3) << "frames of the old epoch are dead";
+  EXPECT_NEAR(core.commands()[0], x, 1e-3) << "batches of the old epoch are dead";
 }
 
 TEST_F(Fixture, AProcessThatTakesOverAtRestKnowsTheEpochAndWhatWasAnswered) {
@@ -241,7 +241,7 @@ TEST_F(Fixture, AProcessThatTakesOverAtRestKnowsTheEpochAndWhatWasAnswered) {
   EXPECT_FALSE(next.any_active());
   next.request({0, number + 1, StreamRequestKind::START, epoch});
   EXPECT_TRUE(next.any_active()) << "a start within the epoch that the process before has seen begin";
-  idl::stream::FeedbackFrame f;
+  idl::stream::Feedback f;
   next.fill(f);
   EXPECT_EQ(f.channels.at(0).start, 400u);
 }
@@ -250,7 +250,7 @@ TEST_F(Fixture, ASetpointThatJumpsIsRefused) {
   begin();
   feed(0, 96);
   run();
-  AxisFrame f;
+  AxisBatch f;
   f.epoch = epoch, f.first = 96, f.count = 8, f.axes = {0, 1}, f.ends = true;
   for (int i = 0; i < 8; ++i) f.setpoints.insert(f.setpoints.end(), {500.0, 500.0});
   core.put(f);
@@ -264,7 +264,7 @@ TEST_F(Fixture, ASetpointThatJumpsIsRefused) {
 
 TEST_F(Fixture, AStartAwayFromThePathIsApproachedWithinTheLimits) {
   begin();
-  AxisFrame f;
+  AxisBatch f;
   f.epoch = epoch, f.first = 0, f.count = 8, f.axes = {0, 1}, f.starts = true, f.ends = true;
   for (int i = 0; i < 8; ++i) f.setpoints.insert(f.setpoints.end(), {0.5, 0.0});
   core.put(f);
@@ -285,8 +285,8 @@ TEST(TwoChannels, ASecondChannelThatStartsDoesNotDisturbTheFirst) {
   DriveCore core = simulated();
   core.configure(p, true);
   core.set_enables({1, 1}, false);
-  const auto frame = [](std::uint16_t channel, std::uint64_t first, bool end) {
-    AxisFrame f;
+  const auto batch = [](std::uint16_t channel, std::uint64_t first, bool end) {
+    AxisBatch f;
     f.channel = channel, f.epoch = 1, f.first = first, f.count = 8, f.axes = {channel}, f.ends = end;
     // 0.05 mm per cycle: 0.4 m/s2 per period to reach, so it is in motion from the start of the test on.
     for (std::uint64_t n = first; n < first + 8; ++n)
@@ -295,7 +295,7 @@ TEST(TwoChannels, ASecondChannelThatStartsDoesNotDisturbTheFirst) {
   };
   std::vector<double> x;
   const auto run = [&] {
-    idl::stream::FeedbackFrame out;
+    idl::stream::Feedback out;
     while (core.can_step(false)) {
       core.step();
       core.fill(out);
@@ -305,21 +305,21 @@ TEST(TwoChannels, ASecondChannelThatStartsDoesNotDisturbTheFirst) {
   };
   core.request({0, 1, StreamRequestKind::NEW_EPOCH, 1});
   for (std::uint64_t first = 0; first < 80; first += 8) {
-    auto f = frame(0, first, false);
+    auto f = batch(0, first, false);
     core.put(f);
   }
   run();
   core.request({1, 1, StreamRequestKind::NEW_EPOCH, 1});
-  idl::stream::FeedbackFrame echo;
+  idl::stream::Feedback echo;
   core.fill(echo);
   const auto start = echo.channels[1].start;
   EXPECT_EQ(start, core.next() + 32) << "the lead ahead, so that the first needs not wait";
   for (std::uint64_t first = 80; first < 160; first += 8) {
-    auto f = frame(0, first, first == 152);
+    auto f = batch(0, first, first == 152);
     core.put(f);
   }
   for (std::uint64_t first = start; first < start + 16; first += 8) {
-    auto f = frame(1, first, first == start + 8);
+    auto f = batch(1, first, first == start + 8);
     core.put(f);
   }
   run();
@@ -330,7 +330,7 @@ TEST(TwoChannels, ASecondChannelThatStartsDoesNotDisturbTheFirst) {
 
 TEST_F(Fixture, AChannelThatTheMachineHasNotMovesNothing) {
   core.request({9, 1, StreamRequestKind::NEW_EPOCH, 1});
-  AxisFrame foreign;
+  AxisBatch foreign;
   foreign.channel = 9, foreign.epoch = 1, foreign.count = 1, foreign.axes = {0}, foreign.setpoints = {1};
   EXPECT_TRUE(core.put(foreign));
   EXPECT_FALSE(core.any_active());
@@ -350,7 +350,7 @@ TEST_F(Fixture, ARequestCannotUseUpTheEpochs) {
 // 1e12 mm at 60 m/min are 1.9e12 periods, more than a number of 32 bits has.
 TEST_F(Fixture, AReturnFromVeryFarEndsWithAStop) {
   begin();
-  AxisFrame far;
+  AxisBatch far;
   far.epoch = epoch, far.count = 8, far.starts = far.ends = true, far.revision = 1, far.axes = {0, 1};
   far.setpoints.assign(16, 1e12);
   core.put(far);
@@ -374,14 +374,14 @@ TEST(TwoChannels, BehindAStopNoAxisMovesBeforeItsOwnChannelResumesOrLeaves) {
       for (std::uint64_t first = from; first < to; first += 8)
         for (const std::uint16_t channel : {0, 1}) {
           if (channel == 1 && first < start) continue;
-          AxisFrame f;
+          AxisBatch f;
           f.channel = channel, f.epoch = 1, f.first = first, f.count = 8, f.axes = {channel};
           for (std::uint64_t n = first; n < first + 8; ++n)
             f.setpoints.push_back(0.01 * static_cast<double>(channel == 0 ? n : n - start));
           core.put(f);
         }
     };
-    idl::stream::FeedbackFrame out;
+    idl::stream::Feedback out;
     const auto run = [&](bool give_up) {
       for (int i = 0; i < 10000 && core.can_step(give_up); ++i) core.step(), core.fill(out);
       core.fill(out);

@@ -21,7 +21,7 @@ TEST(Allocation, APeriodOfAnElasticAxisAndThePoseOfTheToolAllocateNothing) {
   SimulatedAxis axis;
   axis.configure({}, &drive);
   axis.place(0);
-  truth::MachineOutline machine;
+  machine::MachineOutline machine;
   machine.design.table_2 = geometry::RotaryAxis{-truth::Vec3::UnitZ(), truth::Vec3::Zero(), 2};
   for (const std::size_t i : {0u, 1u, 2u}) machine.axes[i] = {true, -400, 400};
   const auto geometry = std::get<truth::TrueGeometry>(
@@ -47,16 +47,16 @@ TEST(Allocation, APeriodWithTheProbeOnAllocatesNothing) {
     void skip_edge(std::uint64_t, const idl::stream::SkipEdge&) override { FAIL() << "it touches nothing"; }
     void encoder_row(const EncoderRow&) override {}
   } rows;
-  truth::MachineOutline machine;
+  machine::MachineOutline machine;
   machine.design.table_2 = geometry::RotaryAxis{-truth::Vec3::UnitZ(), truth::Vec3::Zero(), 2};
   for (const std::size_t i : {0u, 1u, 2u}) machine.axes[i] = {true, -400, 400};
-  truth::TouchProbeTruth probe;
+  touch_probe::TouchProbeTruth probe;
   probe.lobing = 0.001;
   ProbeInput input({machine.design,
                     std::get<truth::TrueGeometry>(truth::TrueGeometry::make(
                         machine.design, truth::draw_machine(truth::grades()[1], 7, machine))),
                     probe,
-                    {truth::SphereGauge{truth::Vec3(0, 0, -500), 12.5}, truth::CuboidGauge{}}});
+                    {touch_probe::SphereGauge{truth::Vec3(0, 0, -500), 12.5}, touch_probe::CuboidGauge{}}});
   std::vector<SimulatedAxis> servos(4);
   const std::vector<SimulatedSpindle> spindles(1);
   SetpointRow row;

@@ -11,13 +11,12 @@
 #include "truth/ballbar.hpp"
 #include "two_axes.hpp"
 
-namespace trunnion::drive {
+namespace trunnion::drive::elastic_axis_test {
 namespace {
 
 // An axis with the feed-forward that the executor gives it.
-struct ElasticAxis : SimulatedAxis {
-  explicit ElasticAxis(const truth::DriveTruth* truth, double at = 0,
-                       const ServoParameters& parameters = {}) {
+struct Axis : SimulatedAxis {
+  explicit Axis(const truth::DriveTruth* truth, double at = 0, const ServoParameters& parameters = {}) {
     configure(parameters, truth);
     place(at);
     setpoint.position = command();
@@ -54,7 +53,7 @@ ServoParameters full_closed() {
 TEST(ElasticAxis, WithTheMotorsEncoderTheLoadIsBackByTheBacklash) {
   auto truth = elastic();
   truth.mechanics->backlash = 0.02;
-  ElasticAxis axis(&truth);
+  Axis axis(&truth);
   double x = 0;
   const auto move = [&](double speed) {
     for (int i = 0; i < 500; ++i) axis.to(x += speed * 0.001);
@@ -72,8 +71,8 @@ TEST(ElasticAxis, WithAScaleTheLoadArrivesInSpiteOfScrewErrorAndWeight) {
   truth.mechanics->screw.terms.polynomials.push_back({0, 1000, {0, 0.5}});
   truth.mechanics->gravity = 0.2;
   truth.load.emplace();
-  ElasticAxis semi(&truth);
-  ElasticAxis full(&truth, 0, full_closed());
+  Axis semi(&truth);
+  Axis full(&truth, 0, full_closed());
   semi.by(100, 50);
   full.by(100, 50);
   EXPECT_NEAR(full.load(), 100, 2e-4);
@@ -86,7 +85,7 @@ TEST(ElasticAxis, AScaleMountedTheWrongWayRoundRunsAway) {
   auto truth = elastic();
   truth.load.emplace();
   truth.load->inverted = true;
-  ElasticAxis axis(&truth, 1, full_closed());
+  Axis axis(&truth, 1, full_closed());
   EXPECT_NEAR(axis.encoder(), -1, 1e-4);
   for (int i = 0; i < 300; ++i) axis.to(-1.01);
   EXPECT_GT(std::abs(axis.encoder() + 1.01), 0.1) << "the position loop drives away from its setpoint";
@@ -95,7 +94,7 @@ TEST(ElasticAxis, AScaleMountedTheWrongWayRoundRunsAway) {
 TEST(ElasticAxis, AnIncrementalEncoderHasNoReferenceUntilItIsGivenOne) {
   auto truth = elastic();
   truth.motor.kind = truth::EncoderKind::incremental;
-  ElasticAxis axis(&truth, 30);
+  Axis axis(&truth, 30);
   EXPECT_FALSE(axis.homed());
   EXPECT_EQ(axis.encoder(), 0);
   axis.set_reference(30);
@@ -221,4 +220,4 @@ TEST(ElasticAxis, TheOtherAxesKeepTheirBitsAndTheirState) {
 }
 
 }  // namespace
-}  // namespace trunnion::drive
+}  // namespace trunnion::drive::elastic_axis_test

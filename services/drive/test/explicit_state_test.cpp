@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string>
 
 #include "bus/json.hpp"
 #include "drive_core.hpp"
@@ -12,11 +13,11 @@
 namespace trunnion::drive {
 namespace {
 
-using idl::stream::FeedbackFrame;
+using idl::stream::Feedback;
 using idl::stream::StreamRequestKind;
 
-idl::stream::AxisFrame frame(std::uint32_t epoch, std::uint64_t first, std::uint64_t start, bool ends) {
-  idl::stream::AxisFrame f;
+idl::stream::AxisBatch batch(std::uint32_t epoch, std::uint64_t first, std::uint64_t start, bool ends) {
+  idl::stream::AxisBatch f;
   f.epoch = epoch, f.first = first, f.count = 8, f.starts = first == start, f.ends = ends, f.revision = 1;
   f.axes = {0, 1};
   for (std::uint64_t n = first; n < first + 8; ++n) {
@@ -57,7 +58,7 @@ struct Machine {
         break;
       default:
         if (epoch == 0 || written > core.next() + 64) break;
-        auto next = frame(epoch, written, start, choice % 64 == 63);
+        auto next = batch(epoch, written, start, choice % 64 == 63);
         written += 8;
         core.put(next);
     }
@@ -71,7 +72,7 @@ struct Machine {
   }
 
   DriveCore core{std::make_unique<SimulatedHardware>()};
-  FeedbackFrame feedback;
+  Feedback feedback;
   std::uint32_t epoch = 0, number = 0;
   std::uint64_t written = 0, start = 0;
 };
@@ -97,6 +98,30 @@ TEST(ExplicitState, ADriveContinuesWithTheSameBitsWhereverAnotherIs) {
         << "seed " << seed;
   }
   EXPECT_GT(cycles, 10000u) << "there was motion to compare";
+}
+
+std::string names_of(const bus::Json& state) {
+  std::string names;
+  for (const auto& [name, value] : state.items()) names += name + " ";
+  return names;
+}
+
+// A state is compared as text with that of another build.
+TEST(ExplicitState, HasItsFieldsInTheOrderOfRecordings) {
+  const std::string always =
+      "channels row rows probe_contact probe_watched mode enabled control_lost next tick starved command "
+      "target velocity rate rate_step phase dip_step dip_depth dip_periods off_path reserve settle homing "
+      "homing_axis return_from return_to return_periods return_done spindles orientations reported ";
+  auto p = two_axes();
+  p.values[40002] = {-1, ""}, p.values[41002] = {1, ""};  // Y is the axis of a second channel
+  p.values[100920] = {1, ""};                             // X has a home switch
+  DriveCore core(std::make_unique<SimulatedHardware>());
+  core.configure(p, true);
+  EXPECT_EQ(names_of(core.explicit_state()), always + "hardware ");
+  core.set_enables({1, 1}, false);
+  core.request({1, 1, StreamRequestKind::HOME, 0, 0});
+  ASSERT_EQ(core.mode(), Mode::HOMING);
+  EXPECT_EQ(names_of(core.explicit_state()), always + "homing_members homing_channel hardware ");
 }
 
 TEST(ExplicitState, HardwareWithoutOneGivesNone) {

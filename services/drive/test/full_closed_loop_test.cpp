@@ -65,12 +65,12 @@ TEST(FullClosedLoop, TheDifferenceOfTheEncodersStopsTheAxisBeforeItRunsAway) {
   std::vector<DriveEvent> events;
   const std::uint64_t start = core.next();
   for (std::uint64_t first = start; first < start + 400 && events.empty(); first += 8) {
-    idl::stream::AxisFrame frame;
-    frame.epoch = 1, frame.first = first, frame.count = 8, frame.revision = 1, frame.axes = {0, 1};
-    frame.starts = first == start, frame.ends = first + 8 == start + 400;
+    idl::stream::AxisBatch batch;
+    batch.epoch = 1, batch.first = first, batch.count = 8, batch.revision = 1, batch.axes = {0, 1};
+    batch.starts = first == start, batch.ends = first + 8 == start + 400;
     for (std::uint64_t n = first + 1; n <= first + 8; ++n)
-      frame.setpoints.insert(frame.setpoints.end(), {static_cast<double>(n - start) / 400, 0});
-    core.put(frame);
+      batch.setpoints.insert(batch.setpoints.end(), {static_cast<double>(n - start) / 400, 0});
+    core.put(batch);
     for (int i = 0; i < 8; ++i) core.step();
     events = core.take_events();
   }

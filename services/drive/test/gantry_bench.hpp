@@ -24,9 +24,9 @@ struct GantryMachine {
   std::optional<volumetric::BeamErrors> beam;
   std::unique_ptr<DriveCore> core;
   std::vector<DriveEvent> events;
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   std::uint32_t epoch = 0, number = 0;
-  double compensation = 0;     // mm, by which the frames of move() put the slave ahead of its master
+  double compensation = 0;     // mm, by which the batches of move() put the slave ahead of its master
   double largest = 0;          // of the synchronization error in executed cycles, mm, by the encoders
   double racked = 0;           // the same in every period, with the drives off as well
   double largest_current = 0;  // share of the rated torque: difference of both sides
@@ -93,7 +93,7 @@ struct GantryMachine {
     return core->any_active();
   }
   /// The channel moves Y from `from` by `way` at `speed` mm/s, with a raised cosine as the acceleration. The
-  /// frames have the slave where its master is: the gantry stage. False when the drive does not start.
+  /// batches have the slave where its master is: the gantry stage. False when the drive does not start.
   /// `most`: stops giving setpoints after so many cycles.
   bool move(double from, double way, double speed = 1000, std::uint64_t most = 1000000) {
     if (!started()) return false;
@@ -108,7 +108,7 @@ struct GantryMachine {
     const auto cycles = static_cast<std::uint64_t>(std::ceil(total * 1000 / 8)) * 8 + 8;
     const std::uint64_t start = core->next();
     for (std::uint64_t n = 0; n < std::min(cycles, most); n += 8) {
-      idl::stream::AxisFrame f;
+      idl::stream::AxisBatch f;
       f.epoch = epoch, f.first = start + n, f.count = 8, f.revision = parameters.revision, f.axes = {0, 1, 2};
       f.starts = n == 0, f.ends = n + 8 >= cycles;
       for (std::uint64_t k = n; k < n + 8; ++k) {

@@ -13,7 +13,7 @@ namespace trunnion::drive {
 using idl::stream::StreamRequestKind;
 namespace {
 
-using idl::stream::AxisFrame;
+using idl::stream::AxisBatch;
 using testing::QueuedHardware;
 
 // One axis: 1 mm per cycle is the fastest, 4 m/s2 the acceleration.
@@ -32,7 +32,7 @@ constexpr std::size_t queue = 5;
 struct Hardware : ::testing::Test {
   QueuedHardware* hardware = new QueuedHardware(queue);
   DriveCore core{std::unique_ptr<DriveHardware>(hardware)};
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   std::vector<double> commanded, actual;
 
   void SetUp() override {
@@ -43,7 +43,7 @@ struct Hardware : ::testing::Test {
   void start() { core.request({0, 1, StreamRequestKind::NEW_EPOCH, 1, 0}); }
   void feed(std::uint64_t from, std::uint64_t to, bool end = false) {
     for (std::uint64_t first = from; first < to; first += 8) {
-      AxisFrame f;
+      AxisBatch f;
       f.epoch = 1, f.first = first, f.count = 8, f.starts = first == 0, f.revision = 1, f.axes = {0};
       f.ends = end && first + 8 >= to;
       for (std::uint64_t n = first; n < first + 8; ++n) f.setpoints.push_back(path(n));

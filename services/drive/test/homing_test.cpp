@@ -10,15 +10,15 @@
 #include "machine/alarm_constants.hpp"
 #include "simulated_hardware.hpp"
 
-namespace trunnion::drive {
+namespace trunnion::drive::homing_test {
 
 using idl::stream::StreamRequestKind;
 namespace {
 
 // An axis that follows `delay` periods later, with a switch that is on beyond its edge and stays on for
 // another 0.1 mm on the way back.
-struct HomingAxis {
-  HomingAxis(double edge, std::size_t delay) : switch_edge(edge), queue(delay, 0.0) {}
+struct Axis {
+  Axis(double edge, std::size_t delay) : switch_edge(edge), queue(delay, 0.0) {}
   void follow(double commanded) {
     queue.push_back(commanded);
     const double before = status.position;
@@ -42,7 +42,7 @@ Homing::Settings settings() {
   return s;
 }
 
-Homing::State run(Homing& homing, HomingAxis& axis, int most = 100000) {
+Homing::State run(Homing& homing, Axis& axis, int most = 100000) {
   while (homing.state() == Homing::State::moving && most-- > 0) {
     const double setpoint = homing.step(axis.status, 0.001);
     const double velocity = (setpoint - axis.setpoint) / 0.001;
@@ -56,7 +56,7 @@ Homing::State run(Homing& homing, HomingAxis& axis, int most = 100000) {
 
 TEST(Homing, TakesTheEdgeAtTheSlowSpeedAlsoBehindAQueueOfRows) {
   for (const std::size_t delay : {0u, 20u}) {
-    HomingAxis axis(12.3, delay);
+    Axis axis(12.3, delay);
     Homing homing;
     homing.start(settings(), 0);
     ASSERT_EQ(run(homing, axis), Homing::State::done);
@@ -67,7 +67,7 @@ TEST(Homing, TakesTheEdgeAtTheSlowSpeedAlsoBehindAQueueOfRows) {
 }
 
 TEST(Homing, LeavesTheSwitchFirstWhenItIsOnAtTheStart) {
-  HomingAxis axis(12.3, 5);
+  Axis axis(12.3, 5);
   axis.status.home_switch = true;
   axis.status.position = axis.setpoint = 30;
   std::fill(axis.queue.begin(), axis.queue.end(), 30.0);
@@ -78,7 +78,7 @@ TEST(Homing, LeavesTheSwitchFirstWhenItIsOnAtTheStart) {
 }
 
 TEST(Homing, GivesUpWhenTheSwitchDoesNotComeWithinTheTravel) {
-  HomingAxis axis(1000, 5);
+  Axis axis(1000, 5);
   Homing homing;
   homing.start(settings(), 0);
   EXPECT_EQ(run(homing, axis), Homing::State::failed);
@@ -88,7 +88,7 @@ TEST(Homing, GivesUpWhenTheSwitchDoesNotComeWithinTheTravel) {
 
 // The switch comes within 0.7 s and does not go off again: what is left of 2 s is creeping, at 1 mm/s.
 TEST(Homing, GivesUpAfterTheLongestTime) {
-  HomingAxis axis(12.3, 5);
+  Axis axis(12.3, 5);
   Homing homing;
   auto limited = settings();
   limited.seconds = 2;
@@ -102,7 +102,7 @@ TEST(Homing, GivesUpAfterTheLongestTime) {
 }
 
 TEST(Homing, AnAbortBrakesAndEndsWithoutAReference) {
-  HomingAxis axis(12.3, 5);
+  Axis axis(12.3, 5);
   Homing homing;
   homing.start(settings(), 0);
   run(homing, axis, 200);
@@ -140,7 +140,7 @@ struct HomedAxis : ::testing::Test {
     while (core.can_step(false)) core.step();
   }
   double position() {
-    idl::stream::FeedbackFrame feedback;
+    idl::stream::Feedback feedback;
     core.fill(feedback);
     return feedback.position[0];
   }
@@ -156,7 +156,7 @@ TEST_F(HomedAxis, FindsItsReferenceOnDemandAndIsReadyForTheStreamAfterwards) {
   run();
   EXPECT_EQ(core.mode(), Mode::FOLLOWING);
   EXPECT_TRUE(core.take_events().empty());
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   core.fill(feedback);
   // It comes to rest beyond the edge at 5 by what it takes to brake from 1 mm/s.
   EXPECT_NEAR(feedback.position[0], 5, 0.01);
@@ -241,4 +241,4 @@ TEST_F(DeadSwitch, AContinuedDriveEndsTheSearchOfTheSameChannel) {
 }
 
 }  // namespace
-}  // namespace trunnion::drive
+}  // namespace trunnion::drive::homing_test

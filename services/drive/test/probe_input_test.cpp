@@ -38,12 +38,12 @@ geometry::ChainParameters design() {
 
 // A ball of 3 mm on a probe of 100 mm, a sphere of 25 mm at X100 Z-200 in the workpiece frame.
 ProbeSetup setup(const truth::GeometryTruth& errors = {}) {
-  truth::TouchProbeTruth probe;
+  touch_probe::TouchProbeTruth probe;
   probe.ball_radius = 3, probe.length = 100;
   return {design(),
           std::get<truth::TrueGeometry>(truth::TrueGeometry::make(design(), errors)),
           probe,
-          {truth::SphereGauge{{100, 0, -200}, 12.5}}};
+          {touch_probe::SphereGauge{{100, 0, -200}, 12.5}}};
 }
 
 struct Probe : ::testing::Test, EncoderRowSink {
@@ -165,7 +165,7 @@ struct Contact : ::testing::Test {
   DriveCore core{std::make_unique<SimulatedHardware>(std::map<std::string, truth::DriveTruth>{}, setup())};
   std::vector<DriveEvent> events;
   std::vector<idl::stream::SkipEdge> edges;
-  idl::stream::FeedbackFrame feedback;
+  idl::stream::Feedback feedback;
   double lowest = 0;
 
   void come_down(bool skip_move, bool on = true, double from = -80) {
@@ -180,7 +180,7 @@ struct Contact : ::testing::Test {
       return from - (n < 100 ? 0.00025 * static_cast<double>(n * n) : 0.05 * (static_cast<double>(n) - 50));
     };
     for (std::uint64_t first = 0; first < 400; first += 8) {
-      idl::stream::AxisFrame f;
+      idl::stream::AxisBatch f;
       f.epoch = 1, f.first = first, f.count = 8, f.starts = first == 0, f.revision = 1, f.axes = {2};
       f.ends = first == 392, f.skip_move = skip_move;
       for (std::uint64_t n = first; n < first + 8; ++n) f.setpoints.push_back(z(n));

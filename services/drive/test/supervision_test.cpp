@@ -9,7 +9,7 @@
 namespace trunnion::drive {
 namespace {
 
-using idl::stream::AxisFrame;
+using idl::stream::AxisBatch;
 using idl::stream::StreamRequestKind;
 using testing::QueuedHardware;
 
@@ -40,7 +40,7 @@ struct Supervision : ::testing::Test {
   void move() {
     core.request({0, 1, StreamRequestKind::NEW_EPOCH, 1, 0});
     for (std::uint64_t first = 0; first < 1000; first += 8) {
-      AxisFrame f;
+      AxisBatch f;
       f.epoch = 1, f.first = first, f.count = 8, f.starts = first == 0, f.revision = 1, f.axes = {0};
       for (std::uint64_t n = first; n < first + 8; ++n) f.setpoints.push_back(path(n));
       f.states = {{idl::stream::Stage::KINEMATICS, first + 7, {}}};
@@ -49,7 +49,7 @@ struct Supervision : ::testing::Test {
     periods(300);
   }
   void periods(int count) {
-    idl::stream::FeedbackFrame feedback;
+    idl::stream::Feedback feedback;
     for (int i = 0; i < count; ++i) {
       core.step();
       core.fill(feedback);

@@ -3,10 +3,10 @@
 // amplitude.
 #include <gtest/gtest.h>
 
+#include "geometry/random_source.hpp"
 #include "servo_analysis/contour_figures.hpp"
 #include "simulated_bench.hpp"
 #include "truth/random_drive.hpp"
-#include "truth/random_source.hpp"
 #include "two_axes.hpp"
 
 namespace trunnion::drive {
@@ -64,7 +64,7 @@ struct Drawn {
 // Every second machine has a scale and full closed loop; the gains are bad ones.
 Drawn draw(std::uint64_t seed) {
   Drawn d;
-  truth::RandomSource random(seed);
+  geometry::RandomSource random(seed);
   const auto set = [&](const auto& key, double low, double high) {
     d.parameters.values[key.number(0)] = {low * std::pow(high / low, random.uniform()), ""};
   };
@@ -73,8 +73,9 @@ Drawn draw(std::uint64_t seed) {
   set(parameter::position_gain, 5, 60);
   set(parameter::speed_gain, 50, 800);
   set(parameter::speed_integral_time, 3, 100);
-  d.truth["X"].mechanics =
-      truth::draw_mechanics(truth::grades()[seed % truth::grades().size()], seed, 0, false);
+  machine::MachineOutline machine;
+  machine.drives = {"X"};
+  d.truth = truth::draw_drives(truth::grades()[seed % truth::grades().size()], seed, machine);
   const bool full = seed % 2 == 0;
   if (full) {
     d.parameters.values[parameter::full_closed_loop.number(0)] = {1, ""};

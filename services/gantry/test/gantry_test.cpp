@@ -18,8 +18,8 @@ machine::Parameters gantry() {
   return p;
 }
 
-idl::stream::AxisFrame frame(std::uint64_t first, double x, double y) {
-  idl::stream::AxisFrame f;
+idl::stream::AxisBatch batch(std::uint64_t first, double x, double y) {
+  idl::stream::AxisBatch f;
   f.axes = {0, 1};
   f.first = first, f.count = 1;
   f.setpoints = {x, y};
@@ -29,8 +29,8 @@ idl::stream::AxisFrame frame(std::uint64_t first, double x, double y) {
 TEST(Gantry, TheSlaveFollowsItsMasterWithTheZeroDeviation) {
   GantryCore core;
   core.configure(gantry(), 0);
-  idl::stream::AxisFrame out;
-  ASSERT_TRUE(core.process(frame(0, 1, 2), {}, out));
+  idl::stream::AxisBatch out;
+  ASSERT_TRUE(core.process(batch(0, 1, 2), {}, out));
   EXPECT_EQ(out.axes, (std::vector<std::uint16_t>{0, 1, 2}));
   EXPECT_EQ(out.setpoints, (std::vector<double>{1, 2, 2.5}));
 }
@@ -40,8 +40,8 @@ TEST(Gantry, AMirroredSlaveMovesOpposite) {
   p.values[102127] = {1, ""};
   GantryCore core;
   core.configure(p, 0);
-  idl::stream::AxisFrame out;
-  core.process(frame(0, 1, 2), {}, out);
+  idl::stream::AxisBatch out;
+  core.process(batch(0, 1, 2), {}, out);
   EXPECT_EQ(out.setpoints[2], -1.5);
 }
 
@@ -57,13 +57,13 @@ TEST(Gantry, TheSlaveIsNotCorrectedByTheFeedback) {
   GantryCore core;
   core.configure(gantry(), 0);
   stream::FeedbackWindow feedback;
-  idl::stream::FeedbackFrame f;
+  idl::stream::Feedback f;
   f.first = 0, f.count = 1, f.axis_count = 3;
   f.actual = {0, 0, 0.6};
   feedback.put(f);
-  idl::stream::AxisFrame out;
+  idl::stream::AxisBatch out;
   for (std::uint64_t n = 0; n < 100; ++n) {
-    ASSERT_TRUE(core.process(frame(n, 0, 0), feedback, out)) << "it waits for no feedback";
+    ASSERT_TRUE(core.process(batch(n, 0, 0), feedback, out)) << "it waits for no feedback";
     EXPECT_EQ(out.setpoints[2], 0.5);
   }
 }
@@ -93,8 +93,8 @@ TEST(Gantry, TheFunctionWordsOfTheDriveAreDecimalDigits) {
 }
 
 // Compensation has put the slave 0.3 mm from where the master's setpoint says.
-idl::stream::AxisFrame compensated(std::uint64_t first) {
-  auto in = frame(first, 0, 0);
+idl::stream::AxisBatch compensated(std::uint64_t first) {
+  auto in = batch(first, 0, 0);
   in.axes.push_back(2);
   in.setpoints.push_back(0.5 + 0.3);
   return in;
@@ -103,7 +103,7 @@ idl::stream::AxisFrame compensated(std::uint64_t first) {
 TEST(Gantry, ACompensatedSlaveKeepsItsSetpointAndItsOffsetIsInTheState) {
   GantryCore core;
   core.configure(gantry(), 0);
-  idl::stream::AxisFrame out;
+  idl::stream::AxisBatch out;
   ASSERT_TRUE(core.process(compensated(9), {}, out));
   EXPECT_EQ(out.axes, (std::vector<std::uint16_t>{0, 1, 2}));
   EXPECT_NEAR(out.setpoints[2], 0.8, 1e-15);
@@ -127,10 +127,10 @@ TEST(Gantry, TheSlaveMovesWithTheChannelOfItsMaster) {
   EXPECT_FALSE(machine::axis_moves_with(gantry(), 2, 1));
 }
 
-TEST(Gantry, AFrameWithoutTheMasterPassesAsItIs) {
+TEST(Gantry, ABatchWithoutTheMasterPassesAsItIs) {
   GantryCore core;
   core.configure(gantry(), 0);
-  idl::stream::AxisFrame in = frame(0, 1, 2), out;
+  idl::stream::AxisBatch in = batch(0, 1, 2), out;
   in.axes = {0}, in.setpoints = {1};
   ASSERT_TRUE(core.process(in, {}, out));
   EXPECT_EQ(out.axes, std::vector<std::uint16_t>{0});
@@ -138,7 +138,7 @@ TEST(Gantry, AFrameWithoutTheMasterPassesAsItIs) {
   in.axes.resize(32), in.setpoints.resize(32);
   for (std::uint16_t i = 0; i < 32; ++i) in.axes[i] = static_cast<std::uint16_t>(31 - i);
   ASSERT_TRUE(core.process(in, {}, out));
-  EXPECT_LE(out.axes.size(), 32u) << "more than a frame can have";
+  EXPECT_LE(out.axes.size(), 32u) << "more than a batch can have";
 }
 
 TEST(Gantry, AMissingMasterIsNamed) {

@@ -22,14 +22,14 @@ struct AcMachine {
     feedback();
   }
   void feedback() {
-    idl::stream::FeedbackFrame frame;
-    frame.tick = tick;
-    frame.channels.resize(1);
-    frame.enabled = {1};
-    frame.spindle_speed = {core.memory().spindle_command[0]};
+    idl::stream::Feedback batch;
+    batch.tick = tick;
+    batch.channels.resize(1);
+    batch.enabled = {1};
+    batch.spindle_speed = {core.memory().spindle_command[0]};
     const auto& orient = core.outputs().spindle_orient;
-    frame.spindle_oriented = {static_cast<std::uint8_t>(!orient.empty() && orient[0] != 0 ? 1 : 0)};
-    core.set_feedback(frame);
+    batch.spindle_oriented = {static_cast<std::uint8_t>(!orient.empty() && orient[0] != 0 ? 1 : 0)};
+    core.set_feedback(batch);
     core.advance(tick);
   }
   /// Until the function is finished; false when the PLC waits for nothing any longer.

@@ -31,10 +31,10 @@ TEST(PlcAllocation, NoneInTheScansOfTheAcMachineWhileItsInputsChange) {
   std::uint64_t tick = 1000;
   std::uint32_t number = 0;
   std::size_t finished = 0, inputs = 0, allocated = 0;
-  idl::stream::FeedbackFrame frame;
-  frame.channels.resize(1);
-  frame.enabled = {1, 1, 1};
-  frame.position = {0, 0, 0};
+  idl::stream::Feedback feedback;
+  feedback.channels.resize(1);
+  feedback.enabled = {1, 1, 1};
+  feedback.position = {0, 0, 0};
   core.advance(tick);
   for (int step = 0; step < 3000; ++step) {
     idl::plc::PanelRequest panel;
@@ -50,15 +50,15 @@ TEST(PlcAllocation, NoneInTheScansOfTheAcMachineWhileItsInputsChange) {
     const idl::channel::AuxiliaryRequest request{
         0,   ++number, random() % 4 == 0 ? T : random() % 4 == 0 ? S : M, codes[random() % std::size(codes)],
         500, 10};
-    frame.tick = tick, frame.first = static_cast<std::uint64_t>(step);
-    frame.position[0] = static_cast<double>(random() % 1000), frame.skip_inputs = random() % 2;
-    frame.spindle_speed.assign(1, core.memory().spindle_command[0]);
+    feedback.tick = tick, feedback.first = static_cast<std::uint64_t>(step);
+    feedback.position[0] = static_cast<double>(random() % 1000), feedback.skip_inputs = random() % 2;
+    feedback.spindle_speed.assign(1, core.memory().spindle_command[0]);
     const auto until = core.outputs().run_until_tick;
     const auto before = allocations;
     if (step % 3 == 0) core.panel(panel);
     if (step % 7 == 0) core.set_channel(state);
     if (step % 20 == 0) core.set_request(request), core.set_request(request);
-    core.set_feedback(frame);
+    core.set_feedback(feedback);
     core.set_alarms(step % 50 == 0, false);
     core.advance(tick);
     tick = std::max(tick + random() % 20, std::min(until, tick + 300));

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "plc/online/shown_variables.hpp"
 #include "running_core.hpp"
 
 namespace trunnion::plc {
@@ -201,6 +202,17 @@ TEST(MainTask, IsSpreadOverScansAndComesToTheSameResult) {
     EXPECT_EQ(n % 998, 0u) << "a run that has ended has counted to a multiple of 998";
   }
   EXPECT_GT(in_one_run, 0u);
+}
+
+// Clients know no types: without a name they would show the cell of NULL, 9223372036854775808.
+TEST(Watch, NamesTheReferenceToNothing) {
+  Running plc("PROGRAM main VAR x : INT; p, q : REF_TO INT; END_VAR q := REF(x); END_PROGRAM");
+  const auto p = plc.variables.find("main.p"), q = plc.variables.find("main.q"),
+             x = plc.variables.find("main.x");
+  const std::vector<idl::plc::VariableInfo> infos = {info_of(p), info_of(q)};
+  const plc_online::ShownVariables shown(infos);
+  const std::vector<std::uint64_t> cells = {st::null_reference, x.address};
+  EXPECT_EQ(shown.texts(cells), (std::vector<std::string>{"NULL", std::to_string(x.address)}));
 }
 
 }  // namespace

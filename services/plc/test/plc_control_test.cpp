@@ -99,9 +99,9 @@ TEST(PlcControl, ALongReasonIsCutBetweenCharacters) {
                  ", inhibits: [start]}\n");
   plc.input(25, 3);
   const auto reason = plc.core.outputs().channels.at(0).reason;
-  // 140 + 13 for " (message 12)" + 2 for "; ": 155, then two characters of two bytes; a third one does not
-  // fit.
-  EXPECT_EQ(reason, text + " (message 12); üü");
+  // 140 + 13 for " (message 12)" + 2 for "; ": with the mark of four bytes no character of the second one
+  // fits into 160.
+  EXPECT_EQ(reason, text + " (message 12); ...");
 }
 
 TEST(PlcControl, TheAnswerToAnOrderIsShownUntilTheNextOneIsAccepted) {

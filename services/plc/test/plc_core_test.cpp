@@ -1,86 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The machine's own programs on the core: handshakes, emergency stop, restart, all by the drive's ticks.
+// The machine's own programs on the core: handshakes and restart, all by the drive's ticks.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "plc_core.hpp"
-#include "program_files.hpp"
+#include "core_bench.hpp"
 
 namespace trunnion::plc {
 namespace {
 
-// Axes 0 and 2, spindles 10 and 11.
-machine::Parameters parameters() {
-  machine::Parameters p;
-  p.values[100000] = {0, "X"}, p.values[102000] = {0, "Z"};
-  for (const std::uint32_t spindle : {110000u, 111000u})
-    p.values[spindle] = {0, "S"}, p.values[spindle + 1] = {10, ""};
-  return p;
-}
-
-/// The PLC with a drive in virtual time beside it: while nothing moves, time continues to run_until_tick.
-struct Bench {
-  explicit Bench(const std::string& machine = "two-channel", bool drive_answers = true) {
-    core.configure(parameters(), true);
-    load_programs(std::string(TRUNNION_MACHINES) + "/" + machine + "/plc", core);
-    if (drive_answers) feedback();
-  }
-
-  void feedback() {
-    idl::stream::FeedbackFrame frame;
-    frame.first = executed;
-    frame.tick = tick;
-    frame.channels.resize(2);
-    frame.channels[1].channel = 1;
-    frame.channels[0].active = active;
-    frame.spindle_speed.assign(speed.begin(), speed.end());
-    frame.enabled = {1, 1};
-    frame.skip_inputs = skip_inputs;
-    const auto outputs = core.outputs();
-    for (std::size_t s = 0; s < outputs.spindle_orient.size() && s < 2; ++s)
-      frame.spindle_oriented.push_back(outputs.spindle_orient[s] != 0 && speed[s] == 0 ? 1 : 0);
-    core.set_feedback(frame);
-    step();
-  }
-  void step() {
-    core.advance(tick);
-    for (const auto& done : core.take_done()) finished.push_back(done);
-  }
-  /// Time continues for as long as the PLC requests it; returns the ticks that passed.
-  std::uint64_t run() {
-    const auto start = tick;
-    for (int i = 0; i < 10000; ++i) {
-      const auto outputs = core.outputs();
-      if (outputs.run_until_tick <= tick) break;
-      for (; tick < outputs.run_until_tick; ++tick)
-        for (std::size_t s = 0; s < 2; ++s) {
-          const double error = outputs.spindle_speed[s] - speed[s];
-          speed[s] += std::clamp(error, -ramp, ramp);
-        }
-      feedback();
-    }
-    return tick - start;
-  }
-  void request(AuxiliaryKind kind, std::uint32_t code, double value = 0, std::uint16_t channel = 0) {
-    ++number;
-    core.set_request({channel, number, kind, code, value, executed});
-    step();
-  }
-  bool done() const { return !finished.empty() && finished.back().number == number; }
-
-  PlcCore core;
-  std::uint64_t tick = 1000, executed = 500;
-  bool active = false;
-  std::uint32_t number = 0;
-  std::uint8_t skip_inputs = 0;
-  std::array<double, 2> speed{};
-  double ramp = 2;  // 1/min in each tick of 1 ms
-  std::vector<idl::plc::AuxiliaryDone> finished;
-};
-
 using enum AuxiliaryKind;
-using idl::plc::PanelRequestKind;
 
 TEST(Handshake, AnUnknownMAndATAreFinishedWithoutTime) {
   Bench bench;
@@ -263,7 +190,7 @@ TEST(Handshake, ARequestWaitsForTheDriveToConfirmTheStandstill) {
   bench.active = true;
   bench.feedback();
   bench.executed = 600;
-  bench.request(M, 6);  // the drive's frame of cycle 600 has not arrived
+  bench.request(M, 6);  // the drive's batch of cycle 600 has not arrived
   EXPECT_TRUE(bench.core.waits_for_standstill());
   EXPECT_EQ(bench.core.outputs().run_until_tick, bench.tick);
   bench.tick += 100, bench.active = false;
@@ -350,107 +277,6 @@ TEST(Handshake, TwoChannelsHaveTheirOwnSpindles) {
   EXPECT_EQ(bench.finished.size(), 4u);
   bench.request(M, 8, 0, 1);
   EXPECT_EQ(bench.core.outputs().coolant, (std::vector<std::uint8_t>{0, 0, 1, 0, 0, 0, 0, 0}));
-}
-
-// A PLC that hung when the button was pressed, or has started since, learns of the press from the drive.
-TEST(EmergencyStop, APressThatTheDriveHoldsIsTakenOnce) {
-  Bench bench;
-  bench.run();
-  ASSERT_FALSE(bench.core.emergency_stop());
-  idl::stream::FeedbackFrame feedback;
-  feedback.press_client = 7, feedback.press_number = 3;
-  bench.core.set_feedback(feedback);
-  EXPECT_TRUE(bench.core.outputs().presses.empty()) << "the programs have not run since";
-  bench.step();
-  EXPECT_TRUE(bench.core.emergency_stop());
-  ASSERT_EQ(bench.core.outputs().presses, (std::vector<idl::plc::Press>{{7, 3}}));
-  bench.core.panel({.kind = PanelRequestKind::RELEASE_EMERGENCY_STOP});
-  bench.core.set_feedback(feedback);  // written before the drive had the outputs
-  bench.core.panel({.client = 7, .number = 3, .kind = PanelRequestKind::PRESS_EMERGENCY_STOP});
-  bench.step();
-  bench.core.panel({.kind = PanelRequestKind::RESET_EMERGENCY_STOP});
-  bench.step();
-  EXPECT_FALSE(bench.core.emergency_stop()) << "no second press";
-  bench.core.panel({.client = 7, .number = 4, .kind = PanelRequestKind::PRESS_EMERGENCY_STOP});
-  bench.step();
-  EXPECT_TRUE(bench.core.emergency_stop());
-  EXPECT_EQ(bench.core.outputs().presses, (std::vector<idl::plc::Press>{{7, 4}, {7, 3}}));
-}
-
-TEST(EmergencyStop, LatchesUntilReleasedAndReset) {
-  Bench bench;
-  bench.request(S, 0, 500);
-  bench.request(M, 3);
-  bench.run();
-  bench.request(M, 8);
-  EXPECT_EQ(bench.core.outputs().axis_enable[0], 1);
-  EXPECT_EQ(bench.core.outputs().axis_enable[1], 0);  // does not exist
-  EXPECT_EQ(bench.core.outputs().axis_enable[2], 1);
-
-  bench.core.panel({.kind = PanelRequestKind::PRESS_EMERGENCY_STOP});
-  bench.step();
-  auto outputs = bench.core.outputs();
-  EXPECT_TRUE(outputs.emergency_stop);
-  EXPECT_EQ(outputs.axis_enable, std::vector<std::uint8_t>(32, 0));
-  EXPECT_EQ(outputs.spindle_speed[0], 0);
-  EXPECT_EQ(outputs.coolant[0], 0);
-
-  bench.core.panel({.kind = PanelRequestKind::RESET_EMERGENCY_STOP});
-  bench.step();
-  EXPECT_TRUE(bench.core.emergency_stop()) << "reset while the button is pressed";
-  bench.core.panel({.kind = PanelRequestKind::RELEASE_EMERGENCY_STOP});
-  bench.step();
-  EXPECT_TRUE(bench.core.emergency_stop()) << "released but not reset";
-  bench.core.panel({.kind = PanelRequestKind::RESET_EMERGENCY_STOP});
-  bench.step();
-  outputs = bench.core.outputs();
-  EXPECT_FALSE(outputs.emergency_stop);
-  EXPECT_EQ(outputs.axis_enable[0], 1);
-  EXPECT_EQ(outputs.spindle_speed[0], 0) << "the spindle waits for a new command";
-}
-
-TEST(EmergencyStop, AFunctionUnderWayFails) {
-  Bench bench;
-  bench.request(M, 6);
-  bench.core.panel({.kind = PanelRequestKind::PRESS_EMERGENCY_STOP});
-  bench.step();
-  ASSERT_EQ(bench.finished.size(), 1u);
-  EXPECT_TRUE(bench.finished[0].failed);
-}
-
-TEST(EmergencyStop, WithoutAProgramTheOutputsAreSafe) {
-  PlcCore core;
-  core.configure(parameters(), true);
-  core.advance(100);
-  EXPECT_TRUE(core.outputs().emergency_stop);
-  EXPECT_EQ(core.outputs().axis_enable, std::vector<std::uint8_t>(32, 0));
-}
-
-idl::plc::PanelRequest force(std::uint32_t address, std::uint32_t value) {
-  return {.kind = PanelRequestKind::FORCE_INPUT, .address = address, .value = value};
-}
-
-TEST(Panel, ForcesInputBytesWithinTheirBounds) {
-  Bench bench;
-  EXPECT_EQ(bench.core.panel(force(0, 4)), "");  // X0.2 is the feed hold button
-  bench.step();
-  EXPECT_TRUE(bench.core.outputs().feed_hold);
-  EXPECT_EQ(bench.core.panel(force(512, 0)), "input byte 512 is outside 0 .. 511");
-  EXPECT_EQ(bench.core.panel(force(0, 256)), "value 256 is outside 0 .. 255");
-}
-
-TEST(Panel, TheKeyOfAGantryTakesItsSlaveOffInJogAndInAnEmergencyStop) {
-  Bench bench("gantry-cb-head");
-  idl::channel::ChannelState state;
-  state.mode = idl::channel::Mode::JOG;
-  bench.core.set_channel(state);
-  EXPECT_EQ(bench.core.panel(force(16, 64)), "");  // X16.6
-  for (int i = 0; i < 20; ++i) bench.core.advance(++bench.tick);
-  EXPECT_EQ(bench.core.outputs().axis_enable[2], 3) << "bit 0: enabled, bit 1: off its master";
-  EXPECT_EQ(bench.core.outputs().axis_enable[0], 1);
-  bench.core.panel({.kind = PanelRequestKind::PRESS_EMERGENCY_STOP});
-  bench.step();
-  EXPECT_EQ(bench.core.outputs().axis_enable[2], 2);
 }
 
 TEST(Restart, AProcessThatComesBackGoesOnWhereItWas) {

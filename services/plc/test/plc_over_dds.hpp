@@ -21,7 +21,7 @@ class Machine {
   explicit Machine(std::uint32_t domain)
       : bus_(bus::Vendor::cyclonedds, {domain}),
         parameters_(bus_.writer(topics::parameter_set)),
-        feedback_(bus_.writer(topics::feedback_frame)),
+        feedback_(bus_.writer(topics::feedback)),
         request_(bus_.writer(topics::auxiliary_request)),
         outputs_(bus_.reader(topics::plc_outputs)),
         done_(bus_.reader(topics::auxiliary_done)),
@@ -36,11 +36,11 @@ class Machine {
     send();
   }
   void send() {
-    idl::stream::FeedbackFrame frame;
-    frame.first = 10, frame.tick = tick, frame.axis_count = 1, frame.spindle_speed = {speed};
-    frame.channels.resize(1);
-    frame.enabled = {1};
-    feedback_.write(frame);
+    idl::stream::Feedback batch;
+    batch.first = 10, batch.tick = tick, batch.axis_count = 1, batch.spindle_speed = {speed};
+    batch.channels.resize(1);
+    batch.enabled = {1};
+    feedback_.write(batch);
   }
   void ask(std::uint32_t number, idl::channel::AuxiliaryKind kind, std::uint32_t code, double value) {
     request_.write({0, number, kind, code, value, 10});
@@ -113,7 +113,7 @@ class Machine {
  private:
   bus::Bus bus_;
   bus::Writer<idl::parameters::ParameterSet> parameters_;
-  bus::Writer<idl::stream::FeedbackFrame> feedback_;
+  bus::Writer<idl::stream::Feedback> feedback_;
   bus::Writer<idl::channel::AuxiliaryRequest> request_;
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::plc::AuxiliaryDone> done_;

@@ -55,7 +55,8 @@ TEST(RetainedMemory, TakesRetainedRegistersAndVariablesOfAnOlderVersion) {
   registers[0] = 255;                          // X0
   registers[3 * 512 + 2 * 1024 + 4 * 7] = 77;  // B7
   old.insert(old.end(), registers.begin(), registers.end());
-  old.insert(old.end(), bytes + offsetof(Memory, blocks), bytes + offsetof(Memory, forces));
+  old.insert(old.end(), 256 * 16 + 256 * 8 + 512, 7);  // timers, counters and edges of instruction lists
+  old.insert(old.end(), bytes + offsetof(Memory, handshakes), bytes + offsetof(Memory, forces));
   const auto* program = reinterpret_cast<const std::uint8_t*>(&memory.program);
   old.insert(old.end(), program, program + offsetof(ProgramVariables, main));
   const auto* values = reinterpret_cast<const std::uint8_t*>(memory.program.values.data());
@@ -72,6 +73,36 @@ TEST(RetainedMemory, TakesRetainedRegistersAndVariablesOfAnOlderVersion) {
   EXPECT_EQ(found.kept->memory.program.layout, 5u);
   EXPECT_EQ(found.kept->memory.program.values[2], 33u);
   EXPECT_EQ(found.kept->memory.forces.count, 0u);
+  retained.save("boot", found.kept->memory);
+  EXPECT_EQ(RetainedMemory(path, 3).load().kept->memory.program.values[2], 33u);
+}
+
+// Behind the registers that version kept timers, counters and edges of instruction lists, which are variables
+// now.
+TEST(RetainedMemory, TakesTheMemoryOfAVersionWithTimersOfInstructionLists) {
+  auto path = temporary("lists");
+  Memory memory;
+  memory.scans = 4711;
+  memory.registers.y[3] = 5;
+  memory.program.layout = 5, memory.program.cells = 3;
+  memory.program.values[2] = 33;
+  RetainedMemory(path, 3).save("boot", memory);
+  auto content = storage::RetainedPair::of_files(path, "plc").load().content;
+  constexpr auto before = offsetof(RetainedMemory::Content, memory);
+  ASSERT_GT(content.size(), before + offsetof(Memory, handshakes));
+  ASSERT_EQ(content[before - 8], RetainedMemory::Content::own_layout);
+  content[before - 8] = 2;
+  content.insert(content.begin() + before + offsetof(Memory, handshakes), 256 * 16 + 256 * 8 + 512, 7);
+  path = temporary("lists");
+  storage::RetainedPair(path, "plc", content.size()).open(content);
+
+  RetainedMemory retained(path, 3);
+  const auto found = retained.load();
+  ASSERT_TRUE(found.kept) << found.problem;
+  EXPECT_EQ(found.kept->boot, "boot");
+  EXPECT_EQ(found.kept->memory.scans, 4711u);
+  EXPECT_EQ(found.kept->memory.registers.y[3], 5);
+  EXPECT_EQ(found.kept->memory.program.values[2], 33u);
   retained.save("boot", found.kept->memory);
   EXPECT_EQ(RetainedMemory(path, 3).load().kept->memory.program.values[2], 33u);
 }

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "plc/instruction_list/compiler.hpp"
+#include "programs.hpp"
 #include "round_recorder.hpp"
 
 namespace trunnion::plc {
@@ -40,9 +40,7 @@ std::shared_ptr<const machine::Parameters> revised_parameters(std::uint64_t revi
 
 PlcCore core_with(const std::string& program) {
   PlcCore core;
-  il::Compiler compiler(il::interface_symbols());
-  auto fast = compiler.compile("LD X16.1\nST Y17.0\n", "fast.il");
-  core.load(std::move(fast), compiler.compile(program, "main.il"));
+  core.load(translate({{"fast.il", "LD X16.1\nST Y17.0\n"}, {"main.il", program}}, true));
   return core;
 }
 
@@ -62,15 +60,15 @@ class Running {
   Round round() {
     for (auto n = random_() % 3; n > 0; --n) {
       tick_ += random_() % 12;
-      idl::stream::FeedbackFrame frame;
-      frame.first = tick_, frame.count = 1, frame.tick = tick_;
-      frame.commanded = {1, 2, 3};
-      frame.spindle_speed = {static_cast<double>(random_() % 100)};
-      frame.enabled = {1};
-      frame.channels.resize(1);
-      frame.channels[0].active = random_() % 4 == 0;
-      core_.set_feedback(frame);
-      recorder_.record(frame);
+      idl::stream::Feedback feedback;
+      feedback.first = tick_, feedback.count = 1, feedback.tick = tick_;
+      feedback.commanded = {1, 2, 3};
+      feedback.spindle_speed = {static_cast<double>(random_() % 100)};
+      feedback.enabled = {1};
+      feedback.channels.resize(1);
+      feedback.channels[0].active = random_() % 4 == 0;
+      core_.set_feedback(feedback);
+      recorder_.record(feedback);
       advance();
     }
     if (random_() % 8 == 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tasks in Structured Text: the same as the instruction list they replace, their state, their faults.
+// Tasks in Structured Text: the same as the instruction list of the same machine, their state, their faults.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,10 +16,10 @@
 #include "round.hpp"
 #include "running_core.hpp"
 
-namespace trunnion::plc {
+namespace trunnion::plc::structured_text_test {
 namespace {
 
-machine::Parameters text_parameters() {
+machine::Parameters parameters() {
   machine::Parameters p;
   p.values[100000] = {0, "X"};
   for (const std::uint32_t spindle : {0u, 1u}) {
@@ -42,11 +42,11 @@ PlcCore core_of(const std::string& source) {
   PlcCore core;
   core.configure(without_spindle(), true);
   StructuredPrograms programs{compiled.code, compiled.layout(), {std::nullopt, std::size_t{0}}};
-  core.load({}, {}, StructuredText(std::move(programs)));
+  core.load(StructuredText(std::move(programs)));
   return core;
 }
 
-PlcCore core_of_directory(const std::string& directory, const machine::Parameters& p = text_parameters()) {
+PlcCore core_of_directory(const std::string& directory, const machine::Parameters& p = parameters()) {
   PlcCore core;
   core.configure(p, true);
   EXPECT_TRUE(load_programs(directory, core).empty()) << directory;
@@ -118,11 +118,11 @@ void expect_same_logic(const std::string& list_directory, const std::string& mac
           const auto target = list.outputs().spindle_speed.at(i);
           speed[i] = random() % 3 == 0 ? target : speed[i] + (target - speed[i]) / 2;
         }
-        idl::stream::FeedbackFrame frame;
-        frame.first = 10, frame.tick = tick, frame.spindle_speed = speed, frame.enabled = {1};
-        frame.channels.resize(channels);
-        for (unsigned i = 0; i < channels; ++i) frame.channels[i].channel = static_cast<std::uint16_t>(i);
-        both([&](PlcCore& core) { core.set_feedback(frame); });
+        idl::stream::Feedback feedback;
+        feedback.first = 10, feedback.tick = tick, feedback.spindle_speed = speed, feedback.enabled = {1};
+        feedback.channels.resize(channels);
+        for (unsigned i = 0; i < channels; ++i) feedback.channels[i].channel = static_cast<std::uint16_t>(i);
+        both([&](PlcCore& core) { core.set_feedback(feedback); });
       }
       both([&](PlcCore& core) { core.advance(tick); });
       ASSERT_EQ(text.outputs(), list.outputs()) << "seed " << seed << " step " << step;
@@ -193,7 +193,7 @@ TEST(SimulatedDevices, AnActuatorRequestsTheTimeOfItsTravelAndIsPartOfTheState) 
   EXPECT_EQ(core.outputs().run_until_tick, 1600u);
   core.advance(700);
   auto other = core_of_directory(directory.path(), without_spindle());
-  other.adopt(core.snapshot());
+  other.adopt(core.state());
   for (auto* one : {&core, &other}) {
     one->advance(1599);
     EXPECT_EQ(one->image().x[17] & 3, 0) << "on its way";
@@ -207,9 +207,9 @@ TEST(SimulatedDevices, APositionSwitchFollowsTheFeedbackOfItsAxis) {
   auto core = core_of_directory(directory.path());
   for (const auto& [x, on] :
        std::vector<std::pair<double, bool>>{{-10.001, false}, {-10, true}, {-5, true}, {-4.9, false}}) {
-    idl::stream::FeedbackFrame frame;
-    frame.position = {x};
-    core.set_feedback(frame);
+    idl::stream::Feedback feedback;
+    feedback.position = {x};
+    core.set_feedback(feedback);
     EXPECT_EQ((core.image().x[17] & 4) != 0, on) << x;
   }
 }
@@ -217,7 +217,7 @@ TEST(SimulatedDevices, APositionSwitchFollowsTheFeedbackOfItsAxis) {
 TEST(SimulatedDevices, WithOtherHardwareTheyDoNotRun) {
   const DeviceDirectory directory;
   PlcCore core;
-  core.configure(text_parameters(), true);
+  core.configure(parameters(), true);
   EXPECT_TRUE(load_programs(directory.path(), core, false).empty());
   core.advance(100);
   EXPECT_EQ(core.image().x[17], 0);
@@ -239,7 +239,7 @@ TEST(StructuredText, ARestartedProcessContinuesAndAPowerUpKeepsRetainVariables) 
   restarted.restore(core.memory());
   EXPECT_EQ(restarted.memory().program, core.memory().program);
   auto adopted = core_of(counting);
-  adopted.adopt(core.snapshot());
+  adopted.adopt(core.state());
   adopted.advance(110), core.advance(110);
   EXPECT_EQ(adopted.memory().program, core.memory().program);
   auto powered = core_of(counting);
@@ -375,10 +375,10 @@ TEST(StructuredText, TheTasksFollowTheInterpolationCycle) {
 TEST(StructuredText, TheStateDigestSeesEveryVariable) {
   auto core = core_of(counting);
   core.advance(0);
-  auto snapshot = core.snapshot();
-  const auto before = state_digest(snapshot);
-  snapshot.memory.program.values[1] ^= 1;
-  EXPECT_NE(state_digest(snapshot), before);
+  auto state = core.state();
+  const auto before = state_digest(state);
+  state.memory.program.values[1] ^= 1;
+  EXPECT_NE(state_digest(state), before);
 }
 
 // The files have the size that the programs need; another program finds them, and the registers B survive.
@@ -416,4 +416,4 @@ TEST(StructuredText, RetainedFilesChangeTheirSizeWithTheProgramAndLeaveNothingBe
 }
 
 }  // namespace
-}  // namespace trunnion::plc
+}  // namespace trunnion::plc::structured_text_test

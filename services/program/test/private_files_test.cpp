@@ -76,14 +76,14 @@ TEST_F(PrivateFilesTest, AStoreOverThemHasTheListOfAStoreOverTheDisk) {
   DirectoryFiles programs(directory_ + "/programs"), state(directory_ + "/state"),
       delivered(directory_ + "/delivered");
   PrivateFiles private_programs(programs), private_state(state);
-  ProgramStore shadow(private_programs, private_state);
-  shadow.install(delivered);
+  ProgramStore standby(private_programs, private_state);
+  standby.install(delivered);
   EXPECT_EQ(on_the_disk(), before);
   ProgramStore store(programs, state);
   store.install(delivered);
-  EXPECT_EQ(shadow.list(), store.list());
-  ASSERT_EQ(shadow.list().programs.size(), 2u);
-  EXPECT_EQ(shadow.list().programs[1].name, "two.nc");
+  EXPECT_EQ(standby.list(), store.list());
+  ASSERT_EQ(standby.list().programs.size(), 2u);
+  EXPECT_EQ(standby.list().programs[1].name, "two.nc");
 }
 
 }  // namespace

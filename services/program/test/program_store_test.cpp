@@ -1,93 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program store on files in memory that can fail in every way a disk does.
+// The program store on files in memory.
+#include "program_store.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "bus/codec.hpp"
 #include "machine/alarm_constants.hpp"
-#include "program_store.hpp"
+#include "memory_files.hpp"
 #include "storage/crc32.hpp"
 
 namespace trunnion::program {
 namespace {
 
-using idl::program::Operation;
-using idl::program::ProgramReply;
-using idl::program::ProgramRequest;
 using testing::HasSubstr;
-
-/// A disk that works.
-class MemoryFiles : public Files {
- public:
-  std::vector<std::string> list() override {
-    std::vector<std::string> names;
-    for (const auto& [name, text] : texts) names.push_back(name);
-    return names;
-  }
-  std::size_t read(const std::string& name, std::uint64_t offset, std::span<std::uint8_t> bytes) override {
-    largest_read = std::max(largest_read, bytes.size());
-    const auto& text = texts.at(name);
-    const auto n = offset < text.size() ? std::min<std::size_t>(bytes.size(), text.size() - offset) : 0;
-    std::copy_n(text.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(offset, text.size())), n,
-                bytes.begin());
-    return n;
-  }
-  void create(const std::string& name) override { texts[name].clear(); }
-  void append(const std::string& name, std::uint64_t offset, std::span<const std::uint8_t> bytes) override {
-    texts.at(name).resize(offset);
-    texts.at(name).append(bytes.begin(), bytes.end());
-  }
-  void publish(const std::string& from, const std::string& to) override {
-    texts[to] = texts.at(from);
-    texts.erase(from);
-  }
-  void remove(const std::string& name) override { texts.erase(name); }
-  std::map<std::string, std::string> texts;
-  std::size_t largest_read = 0;
-};
-
-/// Nothing more can be written.
-class DiskFullFiles : public MemoryFiles {
- public:
-  void append(const std::string& name, std::uint64_t offset, std::span<const std::uint8_t> bytes) override {
-    if (full) throw StorageError("disk: no space");
-    MemoryFiles::append(name, offset, bytes);
-  }
-  bool full = false;
-};
-
-/// A finished file cannot be put in place.
-class RenameFailsFiles : public MemoryFiles {
- public:
-  void publish(const std::string&, const std::string&) override { throw StorageError("disk: read-only"); }
-};
-
-ProgramRequest request(Operation operation, const std::string& name, std::uint64_t client = 1) {
-  ProgramRequest r;
-  r.client = client;
-  r.operation = operation;
-  r.name = name;
-  return r;
-}
-
-ProgramReply upload(ProgramStore& store, const std::string& name, const std::string& text,
-                    std::uint8_t role = 1) {
-  if (auto reply = store.apply(request(Operation::BEGIN_UPLOAD, name), 0); !reply.accepted) return reply;
-  for (std::size_t at = 0; at < text.size(); at += 7) {
-    auto write = request(Operation::WRITE, name);
-    write.offset = at;
-    const auto piece = text.substr(at, 7);
-    write.data.assign(piece.begin(), piece.end());
-    if (auto reply = store.apply(write, 0); !reply.accepted) return reply;
-  }
-  auto commit = request(Operation::COMMIT_UPLOAD, name);
-  commit.size = text.size();
-  commit.crc32 = storage::crc32(text);
-  commit.role = role;
-  return store.apply(commit, 0);
-}
 
 TEST(TextScan, CountsLinesWithAndWithoutALastEnd) {
   const auto lines = [](const std::string& text) {
@@ -282,132 +209,6 @@ TEST(ProgramStore, RenamesUnlessTheNewNameIsTaken) {
   EXPECT_EQ(files.texts, (std::map<std::string, std::string>{{"b", "2"}, {"c", "1"}}));
 }
 
-// A store with the programs a and b, closed again.
-void fill(MemoryFiles& files, MemoryFiles& state) {
-  ProgramStore store(files, state);
-  upload(store, "a", "1"), upload(store, "b", "2");
-}
-
-TEST(ProgramStore, AProgramThatDoesNotMatchItsChecksumIsRefusedUntilItIsUploadedAgain) {
-  MemoryFiles files, state;
-  fill(files, state);
-  files.texts["a"] = "3";
-  files.texts[".upload-9"] = "left behind";
-  for (int start = 0; start < 2; ++start) {
-    ProgramStore store(files, state);
-    EXPECT_EQ(store.list().programs[0].revision, 1u) << "not adopted";
-    EXPECT_EQ(files.texts.count(".upload-9"), 0u);
-    auto read = request(Operation::READ, "a");
-    read.length = 10;
-    const auto reply = store.apply(read, 0);
-    EXPECT_FALSE(reply.accepted);
-    // CRC-32 of "3" and "1".
-    EXPECT_EQ(
-        reply.reason,
-        "Program 'a' was changed outside the control or is damaged (1 bytes with checksum 6dd28e9b, not "
-        "83dcefb7): upload it again, or 'trunnion state accept programs/a'");
-    read.name = "b";
-    EXPECT_TRUE(store.apply(read, 0).accepted) << "the others are not concerned";
-  }
-  ProgramStore store(files, state);
-  ASSERT_EQ(store.damaged().size(), 1u);
-  EXPECT_TRUE(upload(store, "a", "1").accepted);
-  EXPECT_TRUE(store.damaged().empty());
-  EXPECT_EQ(files.texts["a"], "1");
-  EXPECT_TRUE(ProgramStore(files, state).damaged().empty());
-}
-
-TEST(ProgramStore, AChangedProgramThatTheOperatorAcceptsGetsANewRevision) {
-  MemoryFiles files, state;
-  fill(files, state);
-  files.texts["a"] = "3";
-  files.texts[".accepted-a"] = "";
-  ProgramStore store(files, state);
-  EXPECT_TRUE(store.damaged().empty());
-  EXPECT_EQ(store.list().programs[0].revision, 2u);
-  EXPECT_EQ(store.list().programs[1].revision, 1u);
-  EXPECT_EQ(files.texts.count(".accepted-a"), 0u) << "once";
-}
-
-TEST(ProgramStore, AMissingProgramIsReportedOnceAndARenamedOneIsNot) {
-  MemoryFiles files, state;
-  fill(files, state);
-  files.texts.erase("a");
-  files.texts["c"] = files.texts["b"];
-  files.texts.erase("b");
-  {
-    const ProgramStore store(files, state);
-    ASSERT_EQ(store.damaged().size(), 1u);
-    EXPECT_EQ(store.damaged().at("a"),
-              "Program 'a' is missing: upload it again, or 'trunnion restore' a backup");
-  }
-  EXPECT_TRUE(ProgramStore(files, state).damaged().empty());
-}
-
-/// The process ends before the n-th change of a file.
-struct Killed {};
-class KilledFiles : public MemoryFiles {
- public:
-  explicit KilledFiles(int& left) : left_(left) {}
-  void publish(const std::string& from, const std::string& to) override {
-    step();
-    MemoryFiles::publish(from, to);
-  }
-  void remove(const std::string& name) override {
-    step();
-    MemoryFiles::remove(name);
-  }
-
- private:
-  void step() {
-    if (left_-- == 0) throw Killed();
-  }
-  int& left_;
-};
-
-TEST(ProgramStore, AKillBetweenTwoStepsOfAnyChangeDamagesNothing) {
-  for (const auto operation : {Operation::COMMIT_UPLOAD, Operation::REMOVE, Operation::RENAME})
-    for (int steps = 0; steps < 4; ++steps) {
-      int left = 1000;
-      KilledFiles files(left), state(left);
-      fill(files, state);
-      {
-        ProgramStore store(files, state);
-        left = steps;
-        auto change = request(operation, "a");
-        change.new_name = "c";
-        try {
-          if (operation == Operation::COMMIT_UPLOAD)
-            upload(store, "a", "new");
-          else
-            store.apply(change, 0);
-        } catch (const Killed&) {
-        }
-      }
-      left = 1000;
-      const ProgramStore store(files, state);
-      EXPECT_TRUE(store.damaged().empty())
-          << bus::to_string(operation) << " after " << steps << " steps: " << store.damaged().begin()->second;
-      EXPECT_EQ(files.texts["b"], "2");
-    }
-}
-
-TEST(ProgramStore, ADamagedProgramIsReplacedByTheDeliveredOneItWas) {
-  MemoryFiles files, state, delivered;
-  delivered.texts = {{"a", "1"}, {"b", "2"}};
-  {
-    ProgramStore store(files, state);
-    store.install(delivered);
-    upload(store, "b", "mine");
-  }
-  files.texts["a"] = "x", files.texts["b"] = "y";
-  ProgramStore store(files, state);
-  store.install(delivered);
-  EXPECT_EQ(files.texts["a"], "1");
-  EXPECT_EQ(files.texts["b"], "y") << "it was the user's";
-  EXPECT_EQ(store.damaged().size(), 1u);
-}
-
 TEST(ProgramStore, DeliveredProgramsAreCopiedOnceAndStayRemoved) {
   MemoryFiles files, state, delivered;
   delivered.texts = {{"a.nc", "1"}, {"b.nc", "2"}, {"bad name", "3"}};
@@ -452,19 +253,6 @@ TEST(ProgramStore, ResolvesNameThenExtensionThenNumberThenTextThenCycles) {
   EXPECT_FALSE(store.apply(request(Operation::RESOLVE, "../etc"), 0).accepted);
 }
 
-TEST(ProgramStore, AFullDiskRefusesTheChunkAndTheUploadGoesOnLater) {
-  DiskFullFiles files;
-  MemoryFiles state;
-  ProgramStore store(files, state);
-  store.apply(request(Operation::BEGIN_UPLOAD, "a"), 0);
-  auto write = request(Operation::WRITE, "a");
-  write.data = {'1'};
-  files.full = true;
-  EXPECT_EQ(store.apply(write, 0).alarm, alarm::storage_failed.number);
-  files.full = false;
-  EXPECT_TRUE(store.apply(write, 0).accepted);
-}
-
 TEST(ProgramStore, WhatAChannelExecutesIsNeitherReplacedNorRemovedNorRenamedUntilItHasEnded) {
   MemoryFiles files, state;
   ProgramStore store(files, state);
@@ -490,14 +278,6 @@ TEST(ProgramStore, WhatAChannelExecutesIsNeitherReplacedNorRemovedNorRenamedUnti
   EXPECT_TRUE(store.apply(rename, 0).accepted);
   EXPECT_FALSE(store.apply(request(Operation::REMOVE, "c"), 0).accepted);
   EXPECT_EQ(store.list().programs.size(), 1u);
-}
-
-TEST(ProgramStore, AnUploadThatCannotBePutInPlaceChangesNothing) {
-  RenameFailsFiles files;
-  MemoryFiles state;
-  ProgramStore store(files, state);
-  EXPECT_EQ(upload(store, "a", "1").alarm, alarm::storage_failed.number);
-  EXPECT_TRUE(store.list().programs.empty());
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace trunnion::recorder {
 namespace {
 
-constexpr std::uint16_t alarm_topic = 0, state_topic = 1, frame_topic = 2;
+constexpr std::uint16_t alarm_topic = 0, state_topic = 1, batch_topic = 2;
 constexpr std::int64_t began = 1'000'000'000;  // the recorder's begin on the writers' clock, ns
 
 class Destinations : public testing::Test {
@@ -31,14 +31,14 @@ class Destinations : public testing::Test {
     bus::encode(value, m.cdr);
     return m;
   }
-  Message frame(std::uint64_t first, std::size_t values = 4) {
-    idl::stream::PathFrame frame;
-    frame.first = first;
-    frame.count = 1;
+  Message batch(std::uint64_t first, std::size_t values = 4) {
+    idl::stream::PathBatch batch;
+    batch.first = first;
+    batch.count = 1;
     // Not to be compressed away.
     for (std::size_t i = 0; i < values; ++i)
-      frame.setpoints.push_back(std::sin(1e6 * double(first * 1000 + i)));
-    return message(frame_topic, frame);
+      batch.setpoints.push_back(std::sin(1e6 * double(first * 1000 + i)));
+    return message(batch_topic, batch);
   }
   Message channel_state(std::uint16_t channel, std::uint32_t line) {
     idl::channel::ChannelState state;
@@ -59,7 +59,7 @@ class Destinations : public testing::Test {
   }
 
   struct Content {
-    std::vector<std::uint64_t> frames;                            // first cycles
+    std::vector<std::uint64_t> batches;                           // first cycles
     std::vector<std::pair<std::uint16_t, std::uint32_t>> states;  // channel and line
     std::vector<std::uint32_t> alarms;
     recording::StringMap metadata;
@@ -70,10 +70,10 @@ class Destinations : public testing::Test {
     recording::Reader reader(source);
     recording::MessageView view;
     while (reader.next(view)) {
-      if (view.channel->topic == topics::path_frame.name) {
-        idl::stream::PathFrame frame;
-        EXPECT_TRUE(bus::decode(view.data, frame));
-        content.frames.push_back(frame.first);
+      if (view.channel->topic == topics::path_batch.name) {
+        idl::stream::PathBatch batch;
+        EXPECT_TRUE(bus::decode(view.data, batch));
+        content.batches.push_back(batch.first);
       } else if (view.channel->topic == topics::channel_state.name) {
         idl::channel::ChannelState state;
         EXPECT_TRUE(bus::decode(view.data, state));
@@ -92,7 +92,7 @@ class Destinations : public testing::Test {
   const std::string folder = testing::TempDir() + "/destination_" + std::to_string(getpid());
   const std::string path = folder + "/run.mcap";
   const FileHeader header{
-      {bus::find_topic("alarm"), bus::find_topic("channel_state"), bus::find_topic("path_frame")},
+      {bus::find_topic("alarm"), bus::find_topic("channel_state"), bus::find_topic("path_batch")},
       {{"machine", "bench"}}};
   std::array<std::uint32_t, 3> sequence{};
   std::int64_t clock = 0;
@@ -101,7 +101,7 @@ class Destinations : public testing::Test {
 TEST_F(Destinations, WithoutLimitsEverythingIsInTheOneFile) {
   PartFiles files(path, header, {}, 0);
   for (int i = 0; i < 10; ++i) {
-    auto m = frame(static_cast<std::uint64_t>(i));
+    auto m = batch(static_cast<std::uint64_t>(i));
     files.take(m, i);
   }
   files.finish(10);
@@ -109,7 +109,7 @@ TEST_F(Destinations, WithoutLimitsEverythingIsInTheOneFile) {
   EXPECT_EQ(files.files()[0].path, path);
   EXPECT_EQ(files.files()[0].messages, 10u);
   EXPECT_EQ(files.files()[0].bytes, std::filesystem::file_size(path));
-  EXPECT_EQ(read(path).frames.size(), 10u);
+  EXPECT_EQ(read(path).batches.size(), 10u);
 }
 
 TEST_F(Destinations, PartsBySizeLoseNothingAndBeginWithTheStatesThatHold) {
@@ -118,7 +118,7 @@ TEST_F(Destinations, PartsBySizeLoseNothingAndBeginWithTheStatesThatHold) {
   auto first = channel_state(0, 7), second = channel_state(1, 8), third = channel_state(0, 9);
   for (auto* m : {&first, &second, &third}) files.take(*m, 0);
   for (std::uint64_t i = 0; i < count; ++i) {
-    auto m = frame(i, 570);  // 4.6 kB: 13.7 MB in all
+    auto m = batch(i, 570);  // 4.6 kB: 13.7 MB in all
     files.take(m, 0);
   }
   files.finish(0);
@@ -126,7 +126,7 @@ TEST_F(Destinations, PartsBySizeLoseNothingAndBeginWithTheStatesThatHold) {
   std::uint64_t next = 0;
   for (std::size_t part = 0; part < files.files().size(); ++part) {
     const auto content = read(files.files()[part].path);
-    for (const auto cycle : content.frames) EXPECT_EQ(cycle, next++);
+    for (const auto cycle : content.batches) EXPECT_EQ(cycle, next++);
     using Lines = std::vector<std::pair<std::uint16_t, std::uint32_t>>;
     // The first part has them as they came, the others the newest of each channel.
     EXPECT_EQ(content.states, part == 0 ? (Lines{{0, 7}, {1, 8}, {0, 9}}) : (Lines{{0, 9}, {1, 8}}));
@@ -142,15 +142,15 @@ TEST_F(Destinations, PartsBySizeLoseNothingAndBeginWithTheStatesThatHold) {
 TEST_F(Destinations, PartsByTimeKeepTheNewestOnly) {
   PartFiles files(path, header, {0, 10, 2}, 0);
   for (std::uint64_t i = 0; i < 45; ++i) {
-    auto m = frame(i);
+    auto m = batch(i);
     files.take(m, static_cast<double>(i));
   }
   files.finish(45);
   // Parts begin at 0, 10, 20, 30 and 40 s; the last two stay.
   ASSERT_EQ(files.files().size(), 2u);
   EXPECT_EQ(files.files()[0].path, folder + "/run-0004.mcap");
-  EXPECT_EQ(read(files.files()[0].path).frames.front(), 30u);
-  EXPECT_EQ(read(files.files()[1].path).frames.size(), 5u);
+  EXPECT_EQ(read(files.files()[0].path).batches.front(), 30u);
+  EXPECT_EQ(read(files.files()[1].path).batches.size(), 5u);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 2);
 }
 
@@ -167,7 +167,7 @@ TEST_F(Destinations, AnAlarmSavesTheSecondsBeforeItAndAfterIt) {
   auto state = channel_state(0, 5);
   recorder.take(state, 0);
   for (int t = 0; t <= 100; ++t) {
-    auto m = frame(static_cast<std::uint64_t>(t));
+    auto m = batch(static_cast<std::uint64_t>(t));
     recorder.take(m, t);
     if (t == 50) {
       auto a = alarm(110, true, 1);
@@ -179,9 +179,9 @@ TEST_F(Destinations, AnAlarmSavesTheSecondsBeforeItAndAfterIt) {
   EXPECT_EQ(recorder.files()[0].why, "alarm 110 of drive: Following error");
   const auto content = read(folder + "/run-0001.mcap");
   // Saved at 52.5 s, noticed with the message of 53 s: from 20.5 s on.
-  EXPECT_EQ(content.frames.front(), 21u);
-  EXPECT_EQ(content.frames.back(), 53u);
-  EXPECT_EQ(content.frames.size(), 33u);
+  EXPECT_EQ(content.batches.front(), 21u);
+  EXPECT_EQ(content.batches.back(), 53u);
+  EXPECT_EQ(content.batches.size(), 33u);
   EXPECT_EQ(content.alarms, std::vector<std::uint32_t>{110});
   EXPECT_EQ(content.states.size(), 1u) << "the state of second 0 still held";
   EXPECT_EQ(content.metadata.at("saved_because"), "alarm 110 of drive: Following error");
@@ -228,22 +228,22 @@ TEST_F(Destinations, AlarmsThatFollowSoonAreInTheFileOfTheFirst) {
 TEST_F(Destinations, AFlightRecorderKeepsWithinItsMemory) {
   FlightRecorder recorder(path, header, {1e9, 0, 1 << 20}, began);
   for (std::uint64_t i = 0; i < 2000; ++i) {
-    auto m = frame(i, 570);
+    auto m = batch(i, 570);
     recorder.take(m, static_cast<double>(i));
   }
   auto a = alarm(100, true, 1);
   recorder.take(a, 2000);
   ASSERT_EQ(recorder.files().size(), 1u);
   const auto content = read(recorder.files()[0].path);
-  EXPECT_EQ(content.frames.back(), 1999u);
+  EXPECT_EQ(content.batches.back(), 1999u);
   // 4560 bytes of values and less than 0.8 kB beside them in each message.
-  EXPECT_LE(content.frames.size(), (1u << 20) / 4560u);
-  EXPECT_GE(content.frames.size(), (1u << 20) / 5360u);
+  EXPECT_LE(content.batches.size(), (1u << 20) / 4560u);
+  EXPECT_GE(content.batches.size(), (1u << 20) / 5360u);
 }
 
 TEST_F(Destinations, WhatHasEndedIsWholeAndTakesNothingMore) {
   PartFiles files(path, header, {0, 5, 0}, 0);
-  auto before = frame(0), after = frame(1);
+  auto before = batch(0), after = batch(1);
   files.take(before, 0);
   EXPECT_FALSE(files.ended());
   files.end("the disk is full");
@@ -255,14 +255,14 @@ TEST_F(Destinations, WhatHasEndedIsWholeAndTakesNothingMore) {
   ASSERT_EQ(files.files().size(), 1u);
   EXPECT_EQ(std::filesystem::file_size(files.files()[0].path), bytes);
   EXPECT_EQ(files.files()[0].bytes, bytes);
-  EXPECT_EQ(read(files.files()[0].path).frames, std::vector<std::uint64_t>{0});
+  EXPECT_EQ(read(files.files()[0].path).batches, std::vector<std::uint64_t>{0});
   EXPECT_EQ(files.unwritten(), 1u);
   EXPECT_EQ(files.problem(), "the disk is full");
 }
 
 TEST_F(Destinations, AWriteErrorEndsTheRecording) {
   PartFiles files("/dev/full", header, {}, 0);
-  auto m = frame(0);
+  auto m = batch(0);
   files.take(m, 0);
   files.idle(2);  // writes the chunk
   EXPECT_TRUE(files.ended());

@@ -80,7 +80,7 @@ class RecorderProcess : public testing::TestWithParam<std::pair<bus::Vendor, std
 TEST_P(RecorderProcess, WritesEveryMessageAndFinishesOnSigterm) {
   const auto [vendor, domain] = GetParam();
   bus::Bus bus(vendor, {domain}, {64});
-  auto frames = bus.writer(topics::path_frame);
+  auto batches = bus.writer(topics::path_batch);
   auto alarms = bus.writer(topics::alarm);
   idl::service::Alarm alarm;
   alarm.text = "written before the recorder came";
@@ -89,24 +89,24 @@ TEST_P(RecorderProcess, WritesEveryMessageAndFinishesOnSigterm) {
                     bus::to_string(vendor), "--machine", "bench", "--json"});
   ASSERT_EQ(recorder.line(), "recording " + file + "\n");
   ASSERT_TRUE(testing_support::eventually([&] { return alarms.matched() > 0; }));
-  EXPECT_EQ(frames.matched(), 0) << "frames of this host are not sent to it";
-  idl::stream::PathFrame frame;
-  frame.count = 8;
+  EXPECT_EQ(batches.matched(), 0) << "batches of this host are not sent to it";
+  idl::stream::PathBatch batch;
+  batch.count = 8;
   constexpr std::uint64_t count = 500;
   for (std::uint64_t i = 0; i < count; ++i) {
-    frame.first = 8 * i + (i >= 300 ? 16 : 0);  // sixteen cycles without a writer
-    frame.starts = i == 0;
-    frame.setpoints.assign(72, static_cast<double>(i));
-    ASSERT_TRUE(frames.write(frame));
+    batch.first = 8 * i + (i >= 300 ? 16 : 0);  // sixteen cycles without a writer
+    batch.starts = i == 0;
+    batch.setpoints.assign(72, static_cast<double>(i));
+    ASSERT_TRUE(batches.write(batch));
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   recorder.signal(SIGTERM);
   const auto summary = bus::Json::parse(recorder.line());
   EXPECT_EQ(recorder.wait(), 0);
-  EXPECT_EQ(summary["topics"]["path_frame"]["messages"], count);
-  EXPECT_EQ(summary["topics"]["path_frame"]["cycles"], 8 * count);
-  EXPECT_EQ(summary["topics"]["path_frame"]["lost_cycles"], 16);
+  EXPECT_EQ(summary["topics"]["path_batch"]["messages"], count);
+  EXPECT_EQ(summary["topics"]["path_batch"]["cycles"], 8 * count);
+  EXPECT_EQ(summary["topics"]["path_batch"]["lost_cycles"], 16);
   EXPECT_EQ(summary["dropped_messages"], 0);
   EXPECT_EQ(summary["bytes"], std::filesystem::file_size(file));
 
@@ -121,8 +121,8 @@ TEST_P(RecorderProcess, WritesEveryMessageAndFinishesOnSigterm) {
       ASSERT_TRUE(bus::decode(message.data, read));
       alarm_seen = read.text == alarm.text;
     }
-    if (message.channel->topic != topics::path_frame.name) continue;
-    idl::stream::PathFrame read;
+    if (message.channel->topic != topics::path_batch.name) continue;
+    idl::stream::PathBatch read;
     ASSERT_TRUE(bus::decode(message.data, read));
     EXPECT_EQ(read.setpoints, std::vector<double>(72, static_cast<double>(seen)));
     EXPECT_EQ(message.sequence, ++seen);
@@ -138,31 +138,31 @@ TEST_P(RecorderProcess, WritesEveryMessageAndFinishesOnSigterm) {
 }
 
 // One writer is in memory, the other not, as a service from elsewhere; and it comes while the recording runs.
-TEST_P(RecorderProcess, TakesEachFrameOnceWhetherItComesFromMemoryOrByDds) {
+TEST_P(RecorderProcess, TakesEachBatchOnceWhetherItComesFromMemoryOrByDds) {
   const auto [vendor, domain] = GetParam();
   bus::Bus bus(vendor, {domain + 3}, {64});
-  auto in_memory = bus.writer(topics::path_frame);
+  auto in_memory = bus.writer(topics::path_batch);
   Process recorder = start(domain + 3);
   ASSERT_EQ(recorder.line(), "recording " + file + "\n");
-  idl::stream::PathFrame frame;
-  frame.count = 8;
+  idl::stream::PathBatch batch;
+  batch.count = 8;
   bus::Bytes bytes;
   std::unique_ptr<bus::RawWriter> by_dds;
   for (int phase = 0; phase < 3; ++phase) {
     if (phase == 1) {
-      by_dds = bus.backend().writer(bus::describe(topics::path_frame), {true, 64});
-      frame.replica = 1;
-      bus::encode(frame, bytes);
+      by_dds = bus.backend().writer(bus::describe(topics::path_batch), {true, 64});
+      batch.replica = 1;
+      bus::encode(batch, bytes);
       by_dds->write(bytes);  // before the recorder knows of it
       ASSERT_TRUE(testing_support::eventually([&] { return by_dds->matched() > 0; }));
     }
     for (int i = 0; i < 100; ++i) {
-      frame.replica = 0;
-      in_memory.write(frame);
-      frame.replica = 1;
-      bus::encode(frame, bytes);
+      batch.replica = 0;
+      in_memory.write(batch);
+      batch.replica = 1;
+      bus::encode(batch, bytes);
       if (phase == 1) by_dds->write(bytes);
-      frame.first += 8;
+      batch.first += 8;
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
     if (phase == 1) {
@@ -182,37 +182,37 @@ TEST_P(RecorderProcess, TakesEachFrameOnceWhetherItComesFromMemoryOrByDds) {
   recording::MessageView message;
   std::array<int, 2> seen{};
   while (reader.next(message)) {
-    if (message.channel->topic != topics::path_frame.name) continue;
-    ASSERT_TRUE(bus::decode(message.data, frame));
-    ++seen.at(frame.replica);
+    if (message.channel->topic != topics::path_batch.name) continue;
+    ASSERT_TRUE(bus::decode(message.data, batch));
+    ++seen.at(batch.replica);
   }
   EXPECT_EQ(seen[0], 300);
   EXPECT_EQ(seen[1], 101);
 }
 
 // A suspended recorder, as one without processor time, loses the oldest messages and reports this.
-TEST_P(RecorderProcess, SaysHowManyFramesWereOverwrittenBeforeItCouldTakeThem) {
+TEST_P(RecorderProcess, SaysHowManyBatchesWereOverwrittenBeforeItCouldTakeThem) {
   const auto [vendor, domain] = GetParam();
   bus::Bus bus(vendor, {domain + 4}, {64});
-  auto frames = bus.writer(topics::path_frame);
+  auto batches = bus.writer(topics::path_batch);
   Process recorder = start(domain + 4);
   ASSERT_EQ(recorder.line(), "recording " + file + "\n");
-  idl::stream::PathFrame frame;
-  frames.write(frame);
+  idl::stream::PathBatch batch;
+  batches.write(batch);
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   recorder.signal(SIGSTOP);
-  frame.count = 64;
-  frame.setpoints.assign(576, 1);
+  batch.count = 64;
+  batch.setpoints.assign(576, 1);
   bus::Bytes bytes;
-  bus::encode(frame, bytes);
+  bus::encode(batch, bytes);
   const std::size_t written = (std::size_t{6} << 20) / bytes.size();  // half as much again as there is room
-  for (std::size_t i = 0; i < written; ++i) frames.write(frame);
+  for (std::size_t i = 0; i < written; ++i) batches.write(batch);
   recorder.signal(SIGCONT);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   recorder.signal(SIGTERM);
   const auto summary = bus::Json::parse(recorder.line());
   EXPECT_EQ(recorder.wait(), 1) << "something is missing";
-  const auto taken = summary["topics"]["path_frame"]["messages"].get<std::size_t>();
+  const auto taken = summary["topics"]["path_batch"]["messages"].get<std::size_t>();
   EXPECT_GT(taken, written / 2);
   EXPECT_EQ(taken + summary["overwritten_messages"].get<std::size_t>(), written + 1);
 }
@@ -225,7 +225,7 @@ TEST_P(RecorderProcess, TakesOnlyTheTopicsAskedForAndStopsAfterItsDuration) {
   alarms.write({});
   clusters.write({});
   Process recorder({RECORDER, "--output", file, "--domain", std::to_string(domain + 1), "--vendor",
-                    bus::to_string(vendor), "--topics", "alarm,path_frame", "--duration", "1"});
+                    bus::to_string(vendor), "--topics", "alarm,path_batch", "--duration", "1"});
   ASSERT_EQ(recorder.line(), "recording " + file + "\n");
   EXPECT_EQ(recorder.wait(), 0);
   recording::FileSource source(file);

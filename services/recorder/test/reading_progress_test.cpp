@@ -8,10 +8,10 @@
 namespace trunnion::recorder {
 namespace {
 
-idl::stream::FeedbackFrame feedback(std::uint64_t first, std::uint32_t count) {
-  idl::stream::FeedbackFrame frame;
-  frame.first = first, frame.count = count;
-  return frame;
+idl::stream::Feedback feedback(std::uint64_t first, std::uint32_t count) {
+  idl::stream::Feedback batch;
+  batch.first = first, batch.count = count;
+  return batch;
 }
 
 TEST(ReadingProgress, ReportsThreeQuartersOfWhatTheWritersMemoryHolds) {
@@ -26,7 +26,7 @@ TEST(ReadingProgress, ReportsThreeQuartersOfWhatTheWritersMemoryHolds) {
   EXPECT_FALSE(progress.take()) << "it was published";
 }
 
-TEST(ReadingProgress, AFrameWithoutCyclesChangesNothing) {
+TEST(ReadingProgress, ABatchWithoutCyclesChangesNothing) {
   ReadingProgress progress(7);
   progress.read(feedback(1000, 16), 16384);
   progress.read(feedback(1016, 0), 300);

@@ -57,11 +57,11 @@ class Side : public bus::Backend {
   };
 };
 
-class Frames : public testing::Test {
+class Batches : public testing::Test {
  protected:
   static constexpr bus::WriterId here{1}, elsewhere{2};
   static DiscoveredWriter writer(bus::WriterId id, const std::string& address,
-                                 const std::string& topic = topics::path_frame.name) {
+                                 const std::string& topic = topics::path_batch.name) {
     return {id, topic, bus::find_topic(topic)->description.wire_type, address};
   }
   static Sample sample(std::uint8_t number, bus::WriterId id, std::int64_t time) {
@@ -79,12 +79,12 @@ class Frames : public testing::Test {
 
   Side side;
   std::unique_ptr<bus::SharedHistory> history = bus::SharedHistory::make();
-  TopicSource topic{side, *bus::find_topic("path_frame"), nullptr};
+  TopicSource topic{side, *bus::find_topic("path_batch"), nullptr};
 };
 
 using Numbers = std::vector<int>;
 
-TEST_F(Frames, ThoseOfAWriterInMemoryNeedNoReaderOfDds) {
+TEST_F(Batches, ThoseOfAWriterInMemoryNeedNoReaderOfDds) {
   topic.begin(100);
   topic.see({writer(here, history->address())});
   EXPECT_TRUE(topic.has_writer());
@@ -94,7 +94,7 @@ TEST_F(Frames, ThoseOfAWriterInMemoryNeedNoReaderOfDds) {
   EXPECT_EQ(taken(topic), (Numbers{1, 2}));
 }
 
-TEST_F(Frames, AReaderOfDdsIsThereOnlyWhileAWriterNeedsIt) {
+TEST_F(Batches, AReaderOfDdsIsThereOnlyWhileAWriterNeedsIt) {
   topic.begin(100);
   topic.see({writer(here, history->address()), writer(elsewhere, "")});
   EXPECT_EQ(side.readers, 1);
@@ -108,21 +108,21 @@ TEST_F(Frames, AReaderOfDdsIsThereOnlyWhileAWriterNeedsIt) {
   EXPECT_EQ(side.readers, 0);
 }
 
-TEST_F(Frames, ThoseOfAnotherTopicOrContractAreNotTaken) {
+TEST_F(Batches, ThoseOfAnotherTopicOrContractAreNotTaken) {
   auto foreign = writer(here, history->address());
   foreign.wire_type += "x";
   topic.begin(100);
-  topic.see({foreign, writer(elsewhere, "", topics::gantry_frame.name)});
+  topic.see({foreign, writer(elsewhere, "", topics::gantry_batch.name)});
   write(1, 104);
   EXPECT_EQ(taken(topic), Numbers{});
   EXPECT_FALSE(topic.has_writer());
   EXPECT_EQ(side.readers, 0);
 }
 
-TEST_F(Frames, SetpointsOfBeforeTheBeginningAreLeftOutAndFeedbackIsNot) {
-  TopicSource feedback(side, *bus::find_topic("feedback_frame"), nullptr);
+TEST_F(Batches, SetpointsOfBeforeTheBeginningAreLeftOutAndFeedbackIsNot) {
+  TopicSource feedback(side, *bus::find_topic("feedback"), nullptr);
   topic.see({writer(here, history->address())});
-  feedback.see({writer(here, history->address(), topics::feedback_frame.name)});
+  feedback.see({writer(here, history->address(), topics::feedback.name)});
   write(1, 50);
   EXPECT_EQ(taken(topic), Numbers{});
   EXPECT_EQ(taken(feedback), Numbers{1});
@@ -136,7 +136,7 @@ TEST_F(Frames, SetpointsOfBeforeTheBeginningAreLeftOutAndFeedbackIsNot) {
   EXPECT_EQ(feedback.left_out(), 0);
 }
 
-TEST_F(Frames, AWriterThatDiscoveryLosesForAWhileIsReadOnAndNothingOfItIsTakenTwice) {
+TEST_F(Batches, AWriterThatDiscoveryLosesForAWhileIsReadOnAndNothingOfItIsTakenTwice) {
   topic.begin(100);
   topic.see({writer(here, history->address())});
   write(1, 104);
@@ -150,7 +150,7 @@ TEST_F(Frames, AWriterThatDiscoveryLosesForAWhileIsReadOnAndNothingOfItIsTakenTw
   EXPECT_EQ(taken(topic), Numbers{3});
 }
 
-TEST_F(Frames, OfAWriterThatHasEndedAllIsTakenOnceAlsoWhatStillWaitsAtTheReaderOfDds) {
+TEST_F(Batches, OfAWriterThatHasEndedAllIsTakenOnceAlsoWhatStillWaitsAtTheReaderOfDds) {
   topic.begin(100);
   topic.see({writer(here, history->address()), writer(elsewhere, "")});
   write(1, 104);
@@ -162,7 +162,7 @@ TEST_F(Frames, OfAWriterThatHasEndedAllIsTakenOnceAlsoWhatStillWaitsAtTheReaderO
   EXPECT_EQ(topic.overwritten(), 0u);
 }
 
-TEST(Topics, WithoutFramesAreReadByDds) {
+TEST(Topics, WithoutBatchesAreReadByDds) {
   Side side;
   TopicSource topic(side, *bus::find_topic("alarm"), nullptr);
   EXPECT_EQ(side.readers, 1);

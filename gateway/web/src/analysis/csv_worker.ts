@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a file beside the page, so that the keys that stop always answer.
-import type { Source } from "./open_file";
-import { BadCsv, parseCsv } from "./recording";
+import { BadCsv, parseCsv, type Source } from "./recording";
 
 async function bytesOf({ file, url }: Source): Promise<ArrayBuffer> {
   if (file) return file.arrayBuffer();

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Recording } from "./recording";
+import type { Recording, Source } from "./recording";
 
 export type Opened = { recording: Recording } | { line: number; what: string };
-
-/** A file of this computer, or the table of a recording of the machine. */
-export interface Source {
-  name: string;
-  file?: File;
-  url?: string;
-}
 
 /** Reads a CSV file in a worker; `cancel` ends it. */
 export function openFile(source: Source, period: number): { result: Promise<Opened>; cancel: () => void } {

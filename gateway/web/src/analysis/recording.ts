@@ -17,6 +17,13 @@ export interface Recording {
   columns: Column[];
 }
 
+/** A file of this computer, or the table of a recording of the machine. */
+export interface Source {
+  name: string;
+  file?: File;
+  url?: string;
+}
+
 /** Index of the last row that is not after `cycle`; 0 when all are. */
 export function rowAt(cycles: ArrayLike<number>, cycle: number): number {
   let [low, high] = [0, cycles.length - 1];
@@ -83,7 +90,7 @@ const left = /^(snapshot\.|states|channel$|epoch$|revision$|starts$|ends$|second
 export const mostColumns = 64;
 
 /**
- * What `trunnion export FILE --csv feedback_frame` (or path_frame, axis frames) writes, and what this page exports: a line of
+ * What `trunnion export FILE --csv feedback` (or path_batch, batches of axes) writes, and what this page exports: a line of
  * names with `cycle`, then numbers. Columns of texts are left out. Throws BadCsv.
  */
 export function parseCsv(bytes: Uint8Array, name: string, period: number): Recording {

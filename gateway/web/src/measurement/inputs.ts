@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The inputs of a measurement of the kinematics: fields as they are typed, their limits, and the YAML that is sent.
 import type { MeasurementInputs } from "../contract";
+import { typedNumber } from "../format";
 
 export interface RangeFields {
   letter: string;
@@ -50,13 +51,6 @@ export function fieldsOf(inputs: MeasurementInputs): Fields {
   };
 }
 
-/** With comma or point; nothing when it is no number. */
-export function numberOf(typed: string): number | undefined {
-  const trimmed = typed.trim().replace(",", ".").replace("\u2212", "-");
-  const value = Number(trimmed);
-  return trimmed === "" || !Number.isFinite(value) ? undefined : value;
-}
-
 export type Fault = "number" | "whole" | "limits" | "order";
 
 /** Where a value is: "X", "Y", "Z", "probe", or a letter with ".start", ".end", ".points". */
@@ -66,7 +60,7 @@ export type Place = string;
 export function faultsOf(fields: Fields, travel: Travel): Map<Place, Fault> {
   const faults = new Map<Place, Fault>();
   const look = (place: Place, typed: string, [low, high]: Limits, whole = false): number | undefined => {
-    const value = numberOf(typed);
+    const value = typedNumber(typed);
     if (value === undefined) faults.set(place, "number");
     else if (whole && !Number.isInteger(value)) faults.set(place, "whole");
     else if (value < low || value > high) faults.set(place, "limits");
@@ -88,14 +82,14 @@ export function faultsOf(fields: Fields, travel: Travel): Map<Place, Fault> {
 export function inputsOf(base: MeasurementInputs, fields: Fields): MeasurementInputs {
   const axes = Object.fromEntries(
     fields.axes.map(({ letter, start, end, points }) => [
-      letter, { ...base.axes[letter]!, start_deg: numberOf(start)!, end_deg: numberOf(end)!, points: numberOf(points)! },
+      letter, { ...base.axes[letter]!, start_deg: typedNumber(start)!, end_deg: typedNumber(end)!, points: typedNumber(points)! },
     ]),
   );
   return {
     ...base,
     mode: fields.mode,
-    sphere: { ...base.sphere, centre_mm: fields.sphere.map((typed) => numberOf(typed)!) },
-    probe: { ...base.probe, length_mm: numberOf(fields.probeLength)! },
+    sphere: { ...base.sphere, centre_mm: fields.sphere.map((typed) => typedNumber(typed)!) },
+    probe: { ...base.probe, length_mm: typedNumber(fields.probeLength)! },
     axes,
   };
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The calibration with dial and edge finder: what is typed, what is sent, and what comes back as rows.
 import type { ManualGuide, ManualVector } from "../contract";
-import { numberOf } from "../state/measuring_cycles";
+import { typedNumber } from "../format";
 
 /** What is typed, kept over reloads: the work takes hours. */
 export interface Notes {
@@ -46,7 +46,7 @@ export function wrongReadings(guide: ManualGuide, readings: Record<string, strin
   return names.filter((name) => {
     const typed = readings[name] ?? "";
     if (typed.trim() === "" && guide.optional.includes(name)) return false;
-    const value = numberOf(typed);
+    const value = typedNumber(typed);
     if (value === undefined) return true;
     if (name === "alpha") return value < 5 || value > 90;
     return positive.includes(name) ? value <= 0 || value > 1000 : Math.abs(value) > 1e5;
@@ -56,7 +56,7 @@ export function wrongReadings(guide: ManualGuide, readings: Record<string, strin
 /** The body of the request; empty readings are left out. */
 export function readingsBody(channel: number, readings: Record<string, string>): object {
   const given = Object.entries(readings).flatMap(([name, typed]) => {
-    const value = numberOf(typed);
+    const value = typedNumber(typed);
     return value === undefined ? [] : [[name, value] as const];
   });
   return { channel, readings: Object.fromEntries(given) };
@@ -66,12 +66,12 @@ export const wrongAlpha = (alpha: string): boolean => !/^\d+$/.test(alpha.trim()
 
 /** A field of the nine poses: a length within 100 mm. */
 export function wrongDisplacement(typed: string): boolean {
-  const value = numberOf(typed);
+  const value = typedNumber(typed);
   return value === undefined || Math.abs(value) > 100;
 }
 
 export function displacementsBody(channel: number, notes: Notes): object {
-  return { channel, alpha: Number(notes.alpha), displacements: notes.displacements.map((row) => row.map((typed) => numberOf(typed) ?? 0)) };
+  return { channel, alpha: Number(notes.alpha), displacements: notes.displacements.map((row) => row.map((typed) => typedNumber(typed) ?? 0)) };
 }
 
 export interface OffsetRow {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A result of a measurement as rows and as points of a plot.
 import type { MeasurementPose, MeasurementResult, MeasurementState, MeasurementVector } from "../contract";
-import { millimetres } from "../format";
+import { fixed } from "../format";
 
 const rotary = ["A", "B", "C", "U", "V", "W"];
 
 /** mm as um with its sign: +1.2, −0.4, 0.0. */
 export function micrometres(value: number): string {
-  const text = millimetres(value * 1000, 1);
+  const text = fixed(value * 1000, 1);
   return Number(text.replace("\u2212", "-")) > 0 ? `+${text}` : text;
 }
 
@@ -20,7 +20,7 @@ export function lettersOf(result: MeasurementResult, ofChannel: string): string[
 
 /** "A−60 C0" */
 export function poseName(pose: MeasurementPose, letters: string[]): string {
-  const angle = (letter: string) => millimetres(pose.angles[rotary.indexOf(letter)] ?? 0, 3).replace(/\.?0+$/, "");
+  const angle = (letter: string) => fixed(pose.angles[rotary.indexOf(letter)] ?? 0, 3).replace(/\.?0+$/, "");
   return letters.map((letter) => `${letter}${angle(letter)}`).join(" ");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generated from libs/plc/library/registers.yaml by tools/generate_docs.py.
+// Generated from libs/plc/plc/library/registers.yaml by tools/generate_docs.py.
 
 /** Names of input bits that every machine has, by their address. */
 export const inputNames: Readonly<Record<string, string>> = {

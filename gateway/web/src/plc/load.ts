@@ -5,7 +5,7 @@ import type { Source } from "./source";
 
 /** Files of a directory with programs, as the PLC takes them. */
 export const isSource = (name: string): boolean =>
-  (name.endsWith(".st") && !name.endsWith("_test.st")) || name.endsWith(".xml") || ["fast.il", "main.il", "devices.yaml", "messages.yaml", "modbus.yaml"].includes(name);
+  (name.endsWith(".st") && !name.endsWith("_test.st")) || /\.(exp|EXP|xml)$/.test(name) || ["fast.il", "main.il", "devices.yaml", "messages.yaml", "modbus.yaml"].includes(name);
 
 /** The texts of the programs that run. */
 export const runningSources = (programs: PlcPrograms): Promise<Source[]> =>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The machine's messages (alarms 136 to 138) in the language of the operator, from messages.yaml of the PLC's programs.
 import { signal } from "@preact/signals";
-import { language } from "../state/preferences";
-import type { Language } from "../text/texts";
+import { type Language, language } from "../state/preferences";
 
 const keys: Record<Exclude<Language, "en">, string> = { de: "german", zh: "chinese" };
 const first = 136, last = 138;

@@ -6,7 +6,7 @@ export interface SourceLine {
   text: string;
   /** Names as written, without those in comments and strings, each once. */
   names: string[];
-  /** Of the unit around it: a program or function block, empty outside. */
+  /** Of the unit around it: a program, function block or class, empty outside. */
   unit: string;
   kind: "PROGRAM" | "FUNCTION_BLOCK" | "";
 }
@@ -59,23 +59,33 @@ function documentLines(source: string): SourceLine[] {
   });
 }
 
-export function sourceLines(source: string): SourceLine[] {
+/** The program of an instruction list, which has the name of its file; empty for other files. */
+export const listProgram = (file: string): string => /^(\w+)\.il$/.exec(file)?.[1] ?? "";
+
+/** The function block that an instruction with a number calls: TON 3, 500 calls ton_3. */
+function numberedBlock(line: string): string[] {
+  const [, name, number] = /(?:^|:)\s*(TON|TOF|CTU|R_TRIG|F_TRIG)\s+(\d+)/i.exec(line) ?? [];
+  return name === undefined || number === undefined ? [] : [`${name.toLowerCase()}_${number}.Q`];
+}
+
+/** `program`: that of an instruction list. */
+export function sourceLines(source: string, program = ""): SourceLine[] {
   if (isXml(source)) return documentLines(source);
   const lines = source.split("\n");
   const code = blanked(source).split("\n");
-  let unit = "";
-  let kind: SourceLine["kind"] = "";
+  let unit = program;
+  let kind: SourceLine["kind"] = program === "" ? "" : "PROGRAM";
   return lines.map((text, index) => {
     const line = code[index] ?? "";
-    const begins = /^\s*(PROGRAM|FUNCTION_BLOCK|FUNCTION|TEST)\s+(\w*)/i.exec(line);
+    const begins = /^\s*(PROGRAM|FUNCTION_BLOCK|FUNCTION|TEST|CLASS(?=\s+\w))\s+(?:(?:FINAL|ABSTRACT)\s+)*(\w*)/i.exec(line);
     if (begins) {
-      const word = begins[1]!.toUpperCase();
+      const word = begins[1]!.toUpperCase().replace("CLASS", "FUNCTION_BLOCK");
       kind = word === "PROGRAM" || word === "FUNCTION_BLOCK" ? word : "";
       unit = kind === "" ? "" : begins[2]!;
     }
-    const names = begins ? [] : [...new Set(line.match(nameOf) ?? [])];
+    const names = begins ? [] : [...new Set([...(line.match(nameOf) ?? []), ...(program === "" ? [] : numberedBlock(line))])];
     const found = { text, names, unit, kind };
-    if (/^\s*END_(PROGRAM|FUNCTION_BLOCK|FUNCTION|TEST)\b/i.test(line)) [unit, kind] = ["", ""];
+    if (/^\s*END_(PROGRAM|FUNCTION_BLOCK|FUNCTION|TEST|CLASS)\b/i.test(line)) [unit, kind] = ["", ""];
     return found;
   });
 }
@@ -119,14 +129,15 @@ export class Paths {
   }
 }
 
-/** Names that a program or function block declares as elementary variables, without those of a place (AT) and of functions within. */
+/** Names that a program or function block declares as elementary variables, without those of a place (AT), of functions and of methods within. */
 export function declared(source: string, unit: string): string[] {
   if (isXml(source)) {
     const pou = new RegExp(`<(?:\\w+:)?pou\\s[^>]*\\bname="${unit}"[\\s\\S]*?</(?:\\w+:)?interface>`).exec(source)?.[0] ?? "";
     return [...pou.matchAll(/<(?:\w+:)?variable\s+name="(\w+)"\s*>\s*<(?:\w+:)?type>\s*<(?:\w+:)?(?:BOOL|[SDLU]{0,2}INT|L?REAL|[DL]?WORD|BYTE|L?TIME)\s*\//g)].map(([, name]) => name!);
   }
   const code = blanked(source);
-  const body = new RegExp(`(?:PROGRAM|FUNCTION_BLOCK)\\s+${unit}\\b([\\s\\S]*?)END_(?:PROGRAM|FUNCTION_BLOCK)`, "i").exec(code)?.[1] ?? "";
+  const body = (new RegExp(`(?:PROGRAM|FUNCTION_BLOCK|CLASS)\\s+(?:(?:FINAL|ABSTRACT)\\s+)*${unit}\\b([\\s\\S]*?)END_(?:PROGRAM|FUNCTION_BLOCK|CLASS)`, "i").exec(code)?.[1] ?? "")
+    .replace(/\bMETHOD\b[\s\S]*?\bEND_METHOD\b/gi, "");
   const names: string[] = [];
   for (const section of body.matchAll(/\bVAR(?:_INPUT|_OUTPUT)?\b(?!\s+CONSTANT)([\s\S]*?)END_VAR/gi))
     for (const line of section[1]!.matchAll(/([\w, \n]+?)\s*:\s*(?:BOOL|[SDLU]{0,2}INT|L?REAL|[DL]?WORD|BYTE|L?TIME|STRING)\b/gi))
@@ -146,12 +157,15 @@ export interface InputBit {
   name: string;
 }
 
+/** Whether it is Structured Text, also an export of CoDeSys. */
+export const isText = (file: string): boolean => /\.(st|exp|EXP)$/.test(file);
+
 /** The bits of area X that every machine has, and those that the sources and the file of the simulated devices name, in order. */
 export function inputBits(sources: readonly Source[]): InputBit[] {
   const names = new Map(Object.entries(inputNames).map(([address, name]) => [address.slice(1), name]));
   for (const { name: file, text } of sources) {
-    if (!file.endsWith(".st") && file !== "devices.yaml") continue;
-    const code = file.endsWith(".st") ? blanked(text) : text.replace(/#[^\n]*/g, "");
+    if (!isText(file) && file !== "devices.yaml") continue;
+    const code = isText(file) ? blanked(text) : text.replace(/#[^\n]*/g, "");
     for (const [, bit] of code.matchAll(/%?\bI?X(\d+\.[0-7])\b/gi)) if (!names.has(bit!)) names.set(bit!, "");
     for (const [, name, bit] of code.matchAll(/(\w+)\s+AT\s+%I?X(\d+\.[0-7])\b/gi)) names.set(bit!, name!);
   }

@@ -3,13 +3,16 @@
 import { StreamLanguage, type StringStream, syntaxHighlighting } from "@codemirror/language";
 import type { Extension } from "@codemirror/state";
 import { tagHighlighter, tags } from "@lezer/highlight";
+import { isText } from "./source";
 
 const words = (text: string) => new Set(text.split(/\s+/));
 
 const keywords = words(`PROGRAM END_PROGRAM FUNCTION END_FUNCTION FUNCTION_BLOCK END_FUNCTION_BLOCK TEST END_TEST TYPE END_TYPE
   CONFIGURATION END_CONFIGURATION RESOURCE END_RESOURCE TASK WITH STRUCT END_STRUCT VAR VAR_INPUT VAR_OUTPUT VAR_IN_OUT VAR_TEMP VAR_GLOBAL VAR_EXTERNAL END_VAR RETAIN CONSTANT R_EDGE F_EDGE AT
   IF THEN ELSIF ELSE END_IF CASE OF END_CASE FOR TO BY DO END_FOR WHILE END_WHILE REPEAT UNTIL END_REPEAT EXIT CONTINUE RETURN
-  AND OR XOR NOT MOD ARRAY TRUE FALSE`);
+  AND OR XOR NOT MOD ARRAY TRUE FALSE
+  METHOD END_METHOD CLASS END_CLASS INTERFACE END_INTERFACE EXTENDS IMPLEMENTS OVERRIDE FINAL ABSTRACT PUBLIC PROTECTED PRIVATE INTERNAL
+  THIS SUPER REF_TO POINTER NULL`);
 /** Instructions of a list, where a line begins with one. */
 const instructions = words(`LD LDN ST STN S R AND ANDN OR ORN XOR XORN NOT ADD SUB MUL DIV GT GE EQ NE LE LT TON TOF CTU CTR
   R_TRIG F_TRIG MOVE JMP JMPC JMPCN RET RETC RETCN CAL CALC CALCN`);
@@ -56,7 +59,7 @@ export function token(stream: Pick<StringStream, "match" | "skipToEnd" | "next" 
     if (types.has(upper) || blocks.has(upper)) return "typeName";
     return null;
   }
-  if (stream.match(/^(?::=|=>|<>|<=|>=|\*\*|[-+*/=<>&])/)) return "operator";
+  if (stream.match(/^(?::=|\?=|=>|<>|<=|>=|\*\*|[-+*/=<>&])/)) return "operator";
   stream.next();
   return null;
 }
@@ -76,7 +79,7 @@ const colours = syntaxHighlighting(
 /** For a file of this name; nothing for XML and YAML. */
 export function languageOf(name: string): Extension {
   const list = name.endsWith(".il");
-  if (!list && !name.endsWith(".st")) return [];
+  if (!list && !isText(name)) return [];
   return [
     StreamLanguage.define<State>({
       startState: () => ({ comment: "" }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generated from libs/language/codes.cpp, libs/language/codes.hpp, libs/language/macro_call.hpp by tools/generate_docs.py.
+// Generated from libs/program/language/codes.cpp, libs/program/language/codes.hpp, libs/program/language/macro_call.hpp by tools/generate_docs.py.
 
 /** Meaning of each G code that is a function of a block. */
 export const gCodes: Readonly<Record<string, string>> = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The words of the editor's own search field.
-import type { Language } from "../text/texts";
+import type { Language } from "../state/preferences";
 
 const german = {
   Find: "Suchen", Replace: "Ersetzen durch", next: "weiter", previous: "zurück", all: "alle", "match case": "Groß/klein", "by word": "ganze Wörter",

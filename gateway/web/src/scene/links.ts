@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the parts between the axes of a machine are: as libs/collision/machine_links, for drawing. Lengths in mm, angles
+// Where the parts between the axes of a machine are: as libs/machine/collision/machine_links, for drawing. Lengths in mm, angles
 // in degrees.
 import { Matrix4, Vector3 } from "three";
 import type { CarryingAxis } from "../contract";

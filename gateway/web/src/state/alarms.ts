@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an alarm says in the operator's language, why it usually comes and what the operator does, from the catalogue of
 // alarms.
-import { alarmCatalogue } from "../alarm_catalogue";
+import { alarmCatalogue, languageAlarms } from "../alarm_catalogue";
 import { alarmText } from "../plc/messages";
 import type { Texts } from "../text/texts";
 import type { Alarm } from "./model";
@@ -12,9 +12,10 @@ export interface Explanation {
   remedy: string;
 }
 
-/** Undefined for a number that is not in the catalogue. Alarms of the NC language (1000 .. 1999) name place and cause. */
+/** Undefined for a number that is not in the catalogue. */
 export function explanation(alarm: Pick<Alarm, "number">, text: Texts): Explanation | undefined {
-  if (alarm.number >= 1000 && alarm.number < 2000) return { cause: "", remedy: text.languageRemedy };
+  const { first, last, remedy } = languageAlarms;
+  if (alarm.number >= first && alarm.number <= last) return { cause: "", remedy: remedy[text.languageCode] ?? "" };
   return alarmCatalogue[alarm.number]?.[text.languageCode];
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The measuring cycles of the control (docs/measuring-cycles.md): their fields, the MDI line that calls them, their results.
+import { typedNumber } from "../format";
 
 export type CycleName = "calibrate" | "surface" | "bore" | "boss" | "pocket" | "web" | "corner" | "angle";
 export type FieldName = "diameter" | "ball" | "axis" | "expected" | "expectedX" | "expectedY" | "height" | "width" | "along" | "apart" | "offset" | "search";
@@ -34,18 +35,12 @@ const positive: readonly FieldName[] = ["diameter", "ball", "width", "along", "s
 /** What is typed, by field; `axis` is a letter, `offset` empty or G54 .. G59, the others numbers in mm. */
 export type Typed = Partial<Record<FieldName, string>>;
 
-/** As typed, with comma or point; undefined for what is no number. */
-export function numberOf(typed: string | undefined): number | undefined {
-  const text = (typed ?? "").trim().replace(",", ".").replace("\u2212", "-");
-  return text !== "" && Number.isFinite(Number(text)) ? Number(text) : undefined;
-}
-
 /** The fields that are missing or wrong; the line can be built when there are none. */
 export function wrongFields(cycle: Cycle, typed: Typed): FieldName[] {
   return cycle.fields.filter((field) => {
     if (field === "axis" || field === "offset") return false;
     if ((typed[field] ?? "").trim() === "") return !optional.includes(field);
-    const value = numberOf(typed[field]);
+    const value = typedNumber(typed[field]);
     return value === undefined || (field === "apart" && value === 0) || Math.abs(value) > 100000 || (positive.includes(field) && value <= 0);
   });
 }
@@ -59,7 +54,7 @@ export function lineOf(cycle: Cycle, typed: Typed): string {
   const words = cycle.fields.flatMap((field) => {
     if (field === "axis") return [];
     if (field === "offset") return /^G5[4-9]$/.test(typed.offset ?? "") ? [`S${Number(typed.offset!.slice(1)) - 53}`] : [];
-    const value = numberOf(typed[field]);
+    const value = typedNumber(typed[field]);
     return value === undefined ? [] : [letters[field] + String(value)];
   });
   return [`G65 P${cycle.program}`, ...words].join(" ");

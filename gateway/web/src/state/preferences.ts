@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the operator has chosen for this browser: language and colours. Kept over reloads where the browser permits it.
 import { computed, effect, signal } from "@preact/signals";
-import type { Language } from "../text/texts";
 
 export type Theme = "system" | "dark" | "light";
 export const themes: readonly Theme[] = ["system", "dark", "light"];
-const known: readonly Language[] = ["en", "zh", "de"];
+const known = ["en", "zh", "de"] as const;
+export type Language = (typeof known)[number];
 
 /** What is stored under a name, or null: a browser may refuse to keep anything. */
 export function kept(name: string): string | null {

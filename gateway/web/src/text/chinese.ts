@@ -4,9 +4,10 @@ import { chineseAnalysis } from "./chinese_analysis";
 import { chineseMeasurement } from "./chinese_measurement";
 import { chineseMeasuring } from "./chinese_measuring";
 import { chinesePlc } from "./chinese_plc";
-import type { Texts } from "./texts";
+import type { english } from "./english";
+import type { Translation } from "./translation";
 
-export const chinese: Texts = {
+export const chinese: Translation<typeof english> = {
   languageCode: "zh",
   languageName: "中文",
   language: "语言",
@@ -79,7 +80,6 @@ export const chinese: Texts = {
   allAlarms: "全部报警列表",
   cause: "原因",
   remedy: "处理",
-  languageRemedy: "修改文本所指的程序行，然后重新启动。",
   resetAlarms: "清除报警",
   activeAlarms: "当前",
   alarmHistory: "历史",
@@ -392,6 +392,20 @@ export const chinese: Texts = {
   toolDeleted: (tool) => `已删除 T${tool}`,
   deleteTool: (tool) => `删除 T${tool}`,
   deleteToolQuestion: (tool) => `从表中删除刀具 T${tool}？`,
+  loadTool: (tool) => `将 T${tool} 装入主轴`,
+  loadToolAbout: "在 MDI 中执行 T 和 M6；各轴和刀库可能运动",
+  loadOrdered: (line) => `正在执行 ${line}。`,
+  notAtRest: (state) => `通道未静止（${state}）。请等待其结束或复位，然后换刀。`,
+  magazinePlace: "刀位",
+  spindlePlace: "主轴",
+  toolType: "类型",
+  life: "寿命",
+  lifeUsed: "已用寿命",
+  lifeLimit: "寿命上限",
+  lifeUnit: "寿命单位",
+  lifeMinutes: "分钟",
+  lifePieces: "件",
+  lifeAbout: "已用和上限，按输入显示：系统不计数",
   activeLength: "含磨损长度",
   activeRadius: "含磨损半径",
   addTo: (what) => `加到${what}`,
@@ -431,7 +445,7 @@ export const chinese: Texts = {
   vendor: "厂商",
   state: "状态",
   detail: "详情",
-  framesPerSecond: "批次/s",
+  batchesPerSecond: "批次/s",
   lost: "丢失",
   restarts: "重启",
   up: "运行",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishAccess } from "./english_access";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const chineseAccess: Pick<Texts, keyof typeof englishAccess> = {
+export const chineseAccess: Translation<typeof englishAccess> = {
   loginTitle: "登录",
   loginAbout: "急停和进给保持无需登录。",
   userName: "用户",

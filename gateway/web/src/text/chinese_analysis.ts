@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishAnalysis } from "./english_analysis";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const chineseAnalysis: Pick<Texts, keyof typeof englishAnalysis> = {
+export const chineseAnalysis: Translation<typeof englishAnalysis> = {
   sampling: "采样",
   recordings: "记录",
   samplingAbout: "选择信号并开始。实时模式下位置每周期采样；标有 20/s 的信号随每条消息更新。",
-  recordingsAbout: "打开 CSV 文件：trunnion export RECORDING --csv feedback_frame --output FILE.csv（或 path_frame），或本页的导出。",
+  recordingsAbout: "打开 CSV 文件：trunnion export RECORDING --csv feedback --output FILE.csv（或 path_batch），或本页的导出。",
   signals: (count) => `信号 (${count})`,
   signalChoice: "要显示的信号",
   chooseSignals: "至少选择一个信号。",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishMeasurement } from "./english_measurement";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const chineseMeasurement: Pick<Texts, keyof typeof englishMeasurement> = {
+export const chineseMeasurement: Translation<typeof englishMeasurement> = {
   kinematics: "运动学",
   noMeasurementService: "本机床没有测量功能：请在 machine.yaml 中添加服务 measurement。",
   measurementState: "测量",

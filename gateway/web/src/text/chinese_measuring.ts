@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measuring a workpiece with the probe.
 import type { englishMeasuring } from "./english_measuring";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const chineseMeasuring: Pick<Texts, keyof typeof englishMeasuring> = {
+export const chineseMeasuring: Translation<typeof englishMeasuring> = {
   measure: "测量",
   measureCycle: "测量循环",
   measureStart: "测量",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishPlc } from "./english_plc";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const chinesePlc: Pick<Texts, keyof typeof englishPlc> = {
+export const chinesePlc: Translation<typeof englishPlc> = {
   plcPrograms: "PLC 程序",
   plcBack: "寄存器与服务",
   plcFile: "文件",
@@ -57,7 +57,7 @@ export const chinesePlc: Pick<Texts, keyof typeof englishPlc> = {
   plcTakeOverQuestion: "接管新程序？从下一次扫描起由它们控制机床。",
   plcTakenOver: "新程序正在运行。",
   inhibitedByPlc: "机床 PLC 禁止",
-  plcNoSource: (name) => `${name} 不是 PLC 源文件：可用 .st（非 _test.st）、.xml、fast.il、main.il、devices.yaml、messages.yaml 和 modbus.yaml`,
+  plcNoSource: (name) => `${name} 不是 PLC 源文件：可用 .st（非 _test.st）、.exp、.xml、fast.il、main.il、devices.yaml、messages.yaml 和 modbus.yaml`,
   plcComparing: (scans, differences) => `两者使用相同输入运行：已比较 ${scans} 次扫描，${differences} 处差异`,
   plcDrawing: "图形",
   plcDrawingOf: (unit: string) => `图形 ${unit}`,

@@ -4,7 +4,7 @@ import { englishAnalysis } from "./english_analysis";
 import { englishMeasurement } from "./english_measurement";
 import { englishMeasuring } from "./english_measuring";
 import { englishPlc } from "./english_plc";
-// Every text of the page, in English. It defines the keys; the other languages have the same ones (texts.ts).
+// Every text of the page, in English. It defines the keys; the other languages have the same ones (translation.ts).
 export const english = {
   // The page as a whole
   languageCode: "en",
@@ -81,7 +81,6 @@ export const english = {
   allAlarms: "List of all alarms",
   cause: "Cause",
   remedy: "Remedy",
-  languageRemedy: "Correct the line that the text names, then start again.",
   resetAlarms: "Reset alarms",
   activeAlarms: "Active",
   alarmHistory: "History",
@@ -404,6 +403,20 @@ export const english = {
   toolDeleted: (tool: number) => `T${tool} deleted`,
   deleteTool: (tool: number) => `Delete T${tool}`,
   deleteToolQuestion: (tool: number) => `Delete tool T${tool} from the table?`,
+  loadTool: (tool: number) => `Load T${tool} into spindle`,
+  loadToolAbout: "Executes T and M6 in MDI; the axes and the magazine may move",
+  loadOrdered: (line: string) => `${line} is being executed.`,
+  notAtRest: (state: string) => `the channel is not at rest (${state}). Let it end, or reset it, then load the tool.`,
+  magazinePlace: "Place",
+  spindlePlace: "spindle",
+  toolType: "Type",
+  life: "Life",
+  lifeUsed: "Life used",
+  lifeLimit: "Life limit",
+  lifeUnit: "Unit of life",
+  lifeMinutes: "min",
+  lifePieces: "pieces",
+  lifeAbout: "used and limit, as entered: the control does not count",
   activeLength: "Length with wear",
   activeRadius: "Radius with wear",
   addTo: (what: string) => `Add to ${what}`,
@@ -447,7 +460,7 @@ export const english = {
   vendor: "Vendor",
   state: "State",
   detail: "Detail",
-  framesPerSecond: "Batches/s",
+  batchesPerSecond: "Batches/s",
   lost: "Lost",
   restarts: "Restarts",
   up: "Up",

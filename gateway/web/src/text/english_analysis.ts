@@ -4,7 +4,7 @@ export const englishAnalysis = {
   sampling: "Sampling",
   recordings: "Recordings",
   samplingAbout: "Choose signals and start. Positions are sampled in every cycle in real time; what is marked with 20/s comes with each message.",
-  recordingsAbout: "Open a CSV file: trunnion export RECORDING --csv feedback_frame --output FILE.csv (or path_frame), or an export of this page.",
+  recordingsAbout: "Open a CSV file: trunnion export RECORDING --csv feedback --output FILE.csv (or path_batch), or an export of this page.",
   signals: (count: number) => `Signals (${count})`,
   signalChoice: "Signals to show",
   chooseSignals: "Choose at least one signal.",

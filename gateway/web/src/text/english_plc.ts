@@ -55,7 +55,7 @@ export const englishPlc = {
   plcTakeOverQuestion: "Take over the new programs? They control the machine from the next scan on.",
   plcTakenOver: "The new programs run.",
   inhibitedByPlc: "the machine's PLC inhibits it",
-  plcNoSource: (name: string) => `${name} is no source of a PLC: .st (not _test.st), .xml, fast.il, main.il, devices.yaml, messages.yaml and modbus.yaml are`,
+  plcNoSource: (name: string) => `${name} is no source of a PLC: .st (not _test.st), .exp, .xml, fast.il, main.il, devices.yaml, messages.yaml and modbus.yaml are`,
   plcComparing: (scans: number, differences: number) => `Both run with the same inputs: ${scans} scans compared, ${differences} differences`,
   plcDrawing: "Drawing",
   plcDrawingOf: (unit: string) => `Drawing of ${unit}`,

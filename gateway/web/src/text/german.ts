@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { english } from "./english";
 import { germanAccess } from "./german_access";
 import { germanAnalysis } from "./german_analysis";
 import { germanMeasurement } from "./german_measurement";
 import { germanMeasuring } from "./german_measuring";
 import { germanPlc } from "./german_plc";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const german: Texts = {
+export const german: Translation<typeof english> = {
   languageCode: "de",
   languageName: "Deutsch",
   language: "Sprache",
@@ -79,7 +80,6 @@ export const german: Texts = {
   allAlarms: "Liste aller Alarme",
   cause: "Ursache",
   remedy: "Abhilfe",
-  languageRemedy: "Die im Text genannte Zeile berichtigen, dann neu starten.",
   resetAlarms: "Alarme löschen",
   activeAlarms: "Aktiv",
   alarmHistory: "Verlauf",
@@ -392,6 +392,20 @@ export const german: Texts = {
   toolDeleted: (tool) => `T${tool} gelöscht`,
   deleteTool: (tool) => `T${tool} löschen`,
   deleteToolQuestion: (tool) => `Werkzeug T${tool} aus der Tabelle löschen?`,
+  loadTool: (tool) => `T${tool} in die Spindel einwechseln`,
+  loadToolAbout: "Führt T und M6 in MDI aus; Achsen und Magazin können sich bewegen",
+  loadOrdered: (line) => `${line} wird ausgeführt.`,
+  notAtRest: (state) => `Der Kanal ist nicht in Ruhe (${state}). Das Ende abwarten oder Reset drücken, dann einwechseln.`,
+  magazinePlace: "Platz",
+  spindlePlace: "Spindel",
+  toolType: "Typ",
+  life: "Standzeit",
+  lifeUsed: "Verbrauchte Standzeit",
+  lifeLimit: "Standzeitgrenze",
+  lifeUnit: "Einheit der Standzeit",
+  lifeMinutes: "min",
+  lifePieces: "Stück",
+  lifeAbout: "verbraucht und Grenze, wie eingetragen: die Steuerung zählt nicht",
   activeLength: "Länge mit Verschleiß",
   activeRadius: "Radius mit Verschleiß",
   addTo: (what) => `Zu ${what} addieren`,
@@ -431,7 +445,7 @@ export const german: Texts = {
   vendor: "Hersteller",
   state: "Zustand",
   detail: "Einzelheit",
-  framesPerSecond: "Pakete/s",
+  batchesPerSecond: "Pakete/s",
   lost: "Verloren",
   restarts: "Neustarts",
   up: "Seit",

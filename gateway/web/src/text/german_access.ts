@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishAccess } from "./english_access";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const germanAccess: Pick<Texts, keyof typeof englishAccess> = {
+export const germanAccess: Translation<typeof englishAccess> = {
   loginTitle: "Anmelden",
   loginAbout: "Not-Halt und Vorschub-Halt wirken ohne Anmeldung.",
   userName: "Benutzer",

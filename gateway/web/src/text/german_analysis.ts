@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishAnalysis } from "./english_analysis";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const germanAnalysis: Pick<Texts, keyof typeof englishAnalysis> = {
+export const germanAnalysis: Translation<typeof englishAnalysis> = {
   sampling: "Abtastung",
   recordings: "Aufzeichnungen",
   samplingAbout: "Signale wählen und starten. Positionen werden in Echtzeit in jedem Takt abgetastet; was mit 20/s bezeichnet ist, kommt mit jeder Nachricht.",
-  recordingsAbout: "Eine CSV-Datei öffnen: trunnion export RECORDING --csv feedback_frame --output FILE.csv (oder path_frame), oder eine Ausgabe dieser Seite.",
+  recordingsAbout: "Eine CSV-Datei öffnen: trunnion export RECORDING --csv feedback --output FILE.csv (oder path_batch), oder eine Ausgabe dieser Seite.",
   signals: (count) => `Signale (${count})`,
   signalChoice: "Gezeigte Signale",
   chooseSignals: "Mindestens ein Signal wählen.",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishMeasurement } from "./english_measurement";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const germanMeasurement: Pick<Texts, keyof typeof englishMeasurement> = {
+export const germanMeasurement: Translation<typeof englishMeasurement> = {
   kinematics: "Kinematik",
   noMeasurementService: "Diese Maschine kann nicht messen: in machine.yaml fehlt der Dienst measurement.",
   measurementState: "Messung",

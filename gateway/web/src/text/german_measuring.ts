@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measuring a workpiece with the probe.
 import type { englishMeasuring } from "./english_measuring";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const germanMeasuring: Pick<Texts, keyof typeof englishMeasuring> = {
+export const germanMeasuring: Translation<typeof englishMeasuring> = {
   measure: "Messen",
   measureCycle: "Messzyklus",
   measureStart: "Messen",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { englishPlc } from "./english_plc";
-import type { Texts } from "./texts";
+import type { Translation } from "./translation";
 
-export const germanPlc: Pick<Texts, keyof typeof englishPlc> = {
+export const germanPlc: Translation<typeof englishPlc> = {
   plcPrograms: "SPS-Programme",
   plcBack: "Register und Dienste",
   plcFile: "Datei",
@@ -57,7 +57,7 @@ export const germanPlc: Pick<Texts, keyof typeof englishPlc> = {
   plcTakeOverQuestion: "Die neuen Programme übernehmen? Sie steuern die Maschine ab dem nächsten Zyklus.",
   plcTakenOver: "Die neuen Programme laufen.",
   inhibitedByPlc: "die SPS der Maschine sperrt es",
-  plcNoSource: (name) => `${name} ist keine Quelle einer SPS: .st (nicht _test.st), .xml, fast.il, main.il, devices.yaml, messages.yaml und modbus.yaml sind es`,
+  plcNoSource: (name) => `${name} ist keine Quelle einer SPS: .st (nicht _test.st), .exp, .xml, fast.il, main.il, devices.yaml, messages.yaml und modbus.yaml sind es`,
   plcComparing: (scans, differences) => `Beide laufen mit denselben Eingängen: ${scans} Zyklen verglichen, ${differences} Unterschiede`,
   plcDrawing: "Zeichnung",
   plcDrawingOf: (unit: string) => `Zeichnung von ${unit}`,

@@ -2,7 +2,7 @@
 // Numbers that are typed into tables.
 import { useSignal } from "@preact/signals";
 import type { Answer } from "../api";
-import { millimetres, refusal } from "../format";
+import { fixed, refusal, typedNumber } from "../format";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
 import { lacking } from "./Guard";
@@ -10,14 +10,10 @@ import { lacking } from "./Guard";
 /** Every digit that is stored: what is shown is rounded, what is edited is not. */
 const exactly = (value: number) => String(value);
 
-/** A number as it is typed, with comma or point; nothing when it is none. */
-export function typedNumber(typed: string): number | undefined {
-  const number = Number(typed.trim().replace(",", ".").replace("\u2212", "-"));
-  return typed.trim() === "" || !Number.isFinite(number) ? undefined : number;
-}
-
 interface Props {
   value: number;
+  /** As it is shown while it is not edited; to three decimals without it. */
+  shown?: (value: number) => string;
   label: string;
   store: (value: number) => Promise<Answer>;
 }
@@ -26,7 +22,7 @@ interface Props {
  * A number that is sent when it is entered, and comes back to what is stored when it is refused. While it is being
  * edited nothing else changes it, and nothing is sent when it is left as it was.
  */
-export function Cell({ value, label, store }: Props) {
+export function Cell({ value, shown = fixed, label, store }: Props) {
   const draft = useSignal<string | null>(null);
   const commit = async () => {
     const typed = draft.value;
@@ -48,7 +44,7 @@ export function Cell({ value, label, store }: Props) {
       aria-label={label}
       disabled={lacking("setter") !== ""}
       title={lacking("setter") || undefined}
-      value={draft.value ?? millimetres(value)}
+      value={draft.value ?? shown(value)}
       inputMode="decimal"
       onFocus={(event) => {
         const input = event.currentTarget;

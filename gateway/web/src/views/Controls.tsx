@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { overrideLimits } from "../contract";
 import { type Mode, canStart, inhibition } from "../state/model";
 import { channel, channelList, channelName, command, machine, stop } from "../state/store";
 import { text, type Texts } from "../text/texts";
@@ -13,15 +14,14 @@ const modes: [Mode, keyof Texts & `mode${string}`][] = [
 ];
 
 interface OverrideProps {
-  kind: "feed" | "rapid" | "spindle";
-  /** Fractions, as the channel takes them. */
-  minimum: number;
-  maximum: number;
+  kind: keyof typeof overrideLimits;
+  /** A fraction, as the channel takes it. */
   value: number;
 }
 
-function Override({ kind, minimum, maximum, value }: OverrideProps) {
+function Override({ kind, value }: OverrideProps) {
   const t = text.value;
+  const { minimum, maximum } = overrideLimits[kind];
   const title = t[kind];
   const send = (fraction: number) => {
     const limited = Math.min(maximum, Math.max(minimum, fraction));
@@ -125,9 +125,9 @@ export function Controls() {
       </div>
       <Guard needs="operator">
         <div class="overrides">
-          <Override kind="feed" minimum={0} maximum={1.5} value={one.feed_override} />
-          <Override kind="rapid" minimum={0} maximum={1} value={one.rapid_override} />
-          <Override kind="spindle" minimum={0.5} maximum={1.5} value={one.spindle_override} />
+          <Override kind="feed" value={one.feed_override} />
+          <Override kind="rapid" value={one.rapid_override} />
+          <Override kind="spindle" value={one.spindle_override} />
         </div>
       </Guard>
     </section>

@@ -25,7 +25,7 @@ function Services() {
           <thead>
             <tr>
               <th>{t.service}</th><th>{t.replica}</th><th>{t.vendor}</th><th>PID</th><th>{t.state}</th><th>{t.detail}</th>
-              <th class="right">{t.framesPerSecond}</th><th class="right">{t.lost}</th><th class="right">{t.restarts}</th>
+              <th class="right">{t.batchesPerSecond}</th><th class="right">{t.lost}</th><th class="right">{t.restarts}</th>
               <th class="right">{t.up}</th><th>{t.heartbeat}</th>
             </tr>
           </thead>
@@ -38,8 +38,8 @@ function Services() {
                 <td class="digits">{row.pid || "–"}</td>
                 <td><span class={`tag ${row.lifecycle === "ACTIVE" ? "good" : row.lifecycle === "FAULT" || row.lifecycle === "ABSENT" ? "bad" : "warn"}`}>{row.lifecycle.toLowerCase()}</span></td>
                 <td class="detail">{row.contract_match ? row.detail : t.otherContract(row.contract)}</td>
-                <td class="right digits">{compact(row.frames_per_second)}</td>
-                <td class="right digits">{row.frames_lost}</td>
+                <td class="right digits">{compact(row.messages_per_second)}</td>
+                <td class="right digits">{row.cycles_lost}</td>
                 <td class="right digits">{row.restarts}</td>
                 <td class="right digits">{duration(row.uptime)}</td>
                 <td><span class={`dot ${row.alive ? "good" : "bad"}`} /> {row.alive ? t.alive : t.silent}</td>

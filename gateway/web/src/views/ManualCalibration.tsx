@@ -4,7 +4,7 @@ import { effect, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { get, post } from "../api";
 import type { ManualEvaluation, ManualGuide, ManualReading } from "../contract";
-import { millimetres, refusal, title as words } from "../format";
+import { fixed, refusal, title as words } from "../format";
 import { displacementsBody, emptyNotes, type Notes, notesFrom, offsetRows, readingsBody, seriesOf, wrongAlpha, wrongDisplacement, wrongReadings } from "../measurement/manual";
 import { micrometres } from "../measurement/result";
 import { sixDigits } from "../state/parameter_file";
@@ -122,8 +122,8 @@ function Result({ from, number }: { from: Source; number: number }) {
             {offsetRows(evaluation.before, evaluation.after).map((row) => (
               <tr key={row.axis + row.component}>
                 <th scope="row">{row.axis}</th><td>{row.component}</td>
-                <td class="right digits">{millimetres(row.before, 4)}</td>
-                <td class="right digits">{millimetres(row.after, 4)}</td>
+                <td class="right digits">{fixed(row.before, 4)}</td>
+                <td class="right digits">{fixed(row.after, 4)}</td>
                 <td class="right digits">{micrometres(row.after - row.before)}</td>
               </tr>
             ))}
@@ -131,7 +131,7 @@ function Result({ from, number }: { from: Source; number: number }) {
         </table>
       )}
       {evaluation.changes.length > 0 && (
-        <p class="dim">{t.parametersThatChange}: {evaluation.changes.map((one) => `${sixDigits(one.number)} ${words(one.name)} ${millimetres(one.after, 4)}`).join(", ")}</p>
+        <p class="dim">{t.parametersThatChange}: {evaluation.changes.map((one) => `${sixDigits(one.number)} ${words(one.name)} ${fixed(one.after, 4)}`).join(", ")}</p>
       )}
       {evaluation.changes.length === 0 && evaluation.accepted !== true && <p role="status">{t.noChange}</p>}
       {evaluation.changes.length > 0 && (

@@ -4,7 +4,7 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { get } from "../api";
 import type { MeasurementChange, MeasurementPose, MeasurementResult, Parameter } from "../contract";
-import { millimetres, title as words } from "../format";
+import { fixed, title as words } from "../format";
 import { inclination, lettersOf, micrometres, poseName, type Shown, vectorRows } from "../measurement/result";
 import { sixDigits } from "../state/parameter_file";
 import { channels } from "../state/store";
@@ -41,10 +41,10 @@ function Poses({ poses, letters }: { poses: MeasurementPose[]; letters: string[]
             {poses.map((pose, i) => (
               <tr key={i}>
                 <th scope="row" class="digits">{poseName(pose, letters)}</th>
-                {three(pose.centre, (value) => millimetres(value, 4))}
+                {three(pose.centre, (value) => fixed(value, 4))}
                 {three(pose.difference, micrometres)}
                 {three(pose.residual, micrometres)}
-                <td class="right digits">{pose.diameter > 0 ? millimetres(pose.diameter, 4) : "–"}</td>
+                <td class="right digits">{pose.diameter > 0 ? fixed(pose.diameter, 4) : "–"}</td>
               </tr>
             ))}
           </tbody>
@@ -68,8 +68,8 @@ function Vectors({ result }: { result: MeasurementResult }) {
             {vectorRows(result.vectors).map((row) => (
               <tr key={row.axis + row.component}>
                 <th scope="row">{row.axis}</th><td>{row.component}</td>
-                <td class="right digits">{millimetres(row.before, 4)}</td>
-                <td class="right digits">{millimetres(row.after, 4)}</td>
+                <td class="right digits">{fixed(row.before, 4)}</td>
+                <td class="right digits">{fixed(row.after, 4)}</td>
                 <td class="right digits">{micrometres(row.change)}</td>
                 <td class="right digits">{micrometres(row.uncertainty).replace("+", "")}</td>
               </tr>
@@ -77,7 +77,7 @@ function Vectors({ result }: { result: MeasurementResult }) {
           </tbody>
         </table>
       </div>
-      {result.vectors.map((vector) => <p class="dim" key={vector.axis}>{t.inclinationOf(vector.axis, inclination(vector).toFixed(0))}</p>)}
+      {result.vectors.map((vector) => <p class="dim" key={vector.axis}>{t.inclinationOf(vector.axis, fixed(inclination(vector), 0))}</p>)}
     </>
   );
 }
@@ -96,7 +96,7 @@ function Changes({ changes }: { changes: MeasurementChange[] }) {
             {changes.map(({ number, before, after }) => (
               <tr key={number}>
                 <th scope="row" class="digits">{sixDigits(number)}</th><td>{names.value.get(number) ?? ""}</td>
-                <td class="right digits">{millimetres(before, 6)}</td><td class="right digits">{millimetres(after, 6)}</td>
+                <td class="right digits">{fixed(before, 6)}</td><td class="right digits">{fixed(after, 6)}</td>
               </tr>
             ))}
           </tbody>
@@ -132,7 +132,7 @@ export function MeasurementReport({ result, channelOf }: { result: MeasurementRe
     <section class="measurement-report" aria-label={t.measurementResult}>
       <div class="title">
         <h2>{t.measurementResult}</h2>
-        {result?.valid && <span class="digits">{t.deviationOfTouch(micrometres(result.touch_deviation).replace("+", ""))}, {t.largestChange(millimetres(result.largest_change, 4))}</span>}
+        {result?.valid && <span class="digits">{t.deviationOfTouch(micrometres(result.touch_deviation).replace("+", ""))}, {t.largestChange(fixed(result.largest_change, 4))}</span>}
       </div>
       <div class="scroll" tabIndex={0} role="region" aria-label={t.measurementResult}>
         {poses.length === 0 && <p class="dim">{t.noResult}</p>}

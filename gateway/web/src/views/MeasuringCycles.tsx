@@ -4,7 +4,7 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { get } from "../api";
 import type { Variables } from "../contract";
-import { millimetres } from "../format";
+import { fixed } from "../format";
 import { axesOf, type Cycle, cycles, type FieldName, lineOf, titled, type Typed, wrongFields } from "../state/measuring_cycles";
 import { channel, command } from "../state/store";
 import { text } from "../text/texts";
@@ -63,7 +63,7 @@ function Results() {
         {rows.map(([number, name]) => (
           <tr key={number}>
             <th scope="row">{t[titled("measureValue", name)]}</th>
-            <td class="digits right">{millimetres(variables.value.get(number)!, 4)} {name === "angle" ? "°" : "mm"}</td>
+            <td class="digits right">{fixed(variables.value.get(number)!, 4)} {name === "angle" ? "°" : "mm"}</td>
             <td class="dim digits">#{number}</td>
           </tr>
         ))}

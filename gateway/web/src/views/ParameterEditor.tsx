@@ -4,12 +4,11 @@ import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { type Answer, get, put, putIfSame } from "../api";
 import type { Parameter } from "../contract";
-import { limits, title, unit } from "../format";
+import { limits, title, typedNumber, unit } from "../format";
 import { sixDigits, storedValue } from "../state/parameter_file";
 import { tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
 import { text } from "../text/texts";
-import { typedNumber } from "./Cell";
 import { Guard, GuardNote } from "./Guard";
 
 const pathOf = (number: number) => `/api/parameters/${sixDigits(number)}`;

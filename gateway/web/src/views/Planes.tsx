@@ -4,7 +4,7 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Answer, get, put } from "../api";
 import type { Parameter } from "../contract";
-import { millimetres, refusal } from "../format";
+import { fixed, refusal } from "../format";
 import type { Channel } from "../state/model";
 import { isEmpty, planeAxes, planeCount, planeParameter, type PlanePoints, type Point } from "../state/planes";
 import { channel, machine, tell } from "../state/store";
@@ -60,7 +60,7 @@ function tipOf(one: Channel): Point | undefined {
   return indices.some((index) => index < 0) ? undefined : (indices.map((index) => one.workpiece[index] ?? 0) as Point);
 }
 
-const direction = (v: Point) => v.map((value) => millimetres(value, 4)).join("  ");
+const direction = (v: Point) => v.map((value) => fixed(value, 4)).join("  ");
 
 function PlaneForm({ one }: { one: Channel }) {
   const t = text.value;
@@ -75,7 +75,7 @@ function PlaneForm({ one }: { one: Channel }) {
   const teach = (point: number) => {
     if (!tip) return;
     const what = `Q${plane} ${titles[point]}`;
-    void store(first, 3 * point, tip, `${what} ${tip.map((value) => millimetres(value)).join(" ")}`).then((answer) =>
+    void store(first, 3 * point, tip, `${what} ${tip.map((value) => fixed(value)).join(" ")}`).then((answer) =>
       tell(answer.ok ? t.stored(what) : refusal(what, answer.reason), !answer.ok));
   };
   return (
@@ -94,7 +94,7 @@ function PlaneForm({ one }: { one: Channel }) {
                   <Cell
                     value={points[point]![i]!}
                     label={`Q${plane} ${title} ${letter}`}
-                    store={(value) => store(first, 3 * point + i, [value], `Q${plane} ${title} ${letter} ${millimetres(points[point]![i]!)} → ${millimetres(value)}`)}
+                    store={(value) => store(first, 3 * point + i, [value], `Q${plane} ${title} ${letter} ${fixed(points[point]![i]!)} → ${fixed(value)}`)}
                   />
                 </td>
               ))}

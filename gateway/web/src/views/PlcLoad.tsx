@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// New programs into the running PLC: files chosen and edited, checked, compared in shadow, taken over or dropped.
+// New programs into the running PLC: files chosen and edited, checked, compared on standby, taken over or dropped.
 import { useSignal } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { get, post, remove } from "../api";
@@ -126,7 +126,7 @@ export function PlcLoad({ programs, close }: { programs: PlcPrograms; close: () 
         </select>
         <button onClick={() => chooser.current?.click()}>{t.plcChooseFiles}</button>
         <input
-          ref={chooser} type="file" hidden multiple accept=".st,.xml,.il,.yaml" aria-label={t.plcChooseFiles}
+          ref={chooser} type="file" hidden multiple accept=".st,.exp,.xml,.il,.yaml" aria-label={t.plcChooseFiles}
           onChange={(event) => {
             if (event.currentTarget.files) void choose(event.currentTarget.files);
           }}

@@ -4,11 +4,10 @@ import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { get } from "../api";
 import type { PlcTasks as Tasks } from "../contract";
+import { fixed } from "../format";
 import { text } from "../text/texts";
 
 const period = 1000;  // ms
-
-const us = (value: number) => value.toFixed(1);
 
 export function PlcTasks() {
   const t = text.value;
@@ -40,8 +39,8 @@ export function PlcTasks() {
           {shown.value.map((task) => (
             <tr key={task.name} class={task.worst_us > task.budget_us ? "forced" : ""}>
               <td>{task.name === "scan" ? t.plcWholeScan : task.name}</td>
-              <td class="right digits">{us(task.last_us)}</td>
-              <td class="right digits">{us(task.worst_us)}</td>
+              <td class="right digits">{fixed(task.last_us, 1)}</td>
+              <td class="right digits">{fixed(task.worst_us, 1)}</td>
               <td class="right digits">{task.budget_us}</td>
               <td class="right digits" title={t.plcMostStatements(task.most_statements)}>{task.statements}{task.statement_budget > 0 ? ` / ${task.statement_budget}` : ""}</td>
             </tr>

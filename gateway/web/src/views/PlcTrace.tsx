@@ -4,10 +4,10 @@ import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { get, post, remove } from "../api";
 import type { PlcTraceRows } from "../contract";
+import { typedNumber } from "../format";
 import { plotted } from "../plc/watch";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
-import { typedNumber } from "./Cell";
 import { type Lane, Waveforms } from "./Waveforms";
 
 const period = 200;  // ms between two questions

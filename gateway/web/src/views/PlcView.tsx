@@ -4,7 +4,7 @@ import { signal, useSignal } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { get, post } from "../api";
 import type { PlcForces, PlcPrograms, PlcVariable, PlcVariableList } from "../contract";
-import { declared, Paths, sourceLines } from "../plc/source";
+import { declared, listProgram, Paths, sourceLines } from "../plc/source";
 import { type Live, PlcWatch } from "../plc/watch";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
@@ -52,7 +52,7 @@ function Source({ programs, paths, live, watch }: { programs: PlcPrograms; paths
   }, [file.value, programs.crc32]);
   const drawn = useSignal(true);
   const isDrawn = drawn.value && file.value.endsWith(".xml");
-  const lines = useMemo(() => sourceLines(content.value), [content.value]);
+  const lines = useMemo(() => sourceLines(content.value, listProgram(file.value)), [content.value, file.value]);
   // Of each unit the prefixes of its variables; one that is a program of its own name needs no choice.
   const prefixes = useMemo(
     () => new Map(lines.filter(({ kind }) => kind !== "").map(({ kind, unit }) => [unit, kind] as const)

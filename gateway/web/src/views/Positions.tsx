@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
-import { millimetres } from "../format";
+import { fixed } from "../format";
 import { axisRows } from "../state/model";
 import { channel, machine } from "../state/store";
 import { text } from "../text/texts";
@@ -50,15 +50,15 @@ export function Positions() {
           <div class={`axis ${row.enabled === false ? "off" : ""}`} key={row.index} data-axis={row.letter}>
             <span class="letter">{row.letter}</span>
             <span class="large digits" data-test={`position-${row.letter}`}>
-              {millimetres(workpieceLarge ? row.workpiece : row.machine)}
+              {fixed(workpieceLarge ? row.workpiece : row.machine)}
             </span>
             <dl class="digits">
               <dt class="go">{t.toGo}</dt>
-              <dd class="go" data-test={`to-go-${row.letter}`}>{millimetres(row.distanceToGo)}</dd>
+              <dd class="go" data-test={`to-go-${row.letter}`}>{fixed(row.distanceToGo)}</dd>
               <dt>{workpieceLarge ? t.machineShort : t.workpieceShort}</dt>
-              <dd>{millimetres(workpieceLarge ? row.machine : row.workpiece)}</dd>
+              <dd>{fixed(workpieceLarge ? row.machine : row.workpiece)}</dd>
               <dt title={t.followingError}>{t.followingErrorShort}</dt>
-              <dd>{row.followingError === undefined ? "–" : millimetres(row.followingError, 4)}</dd>
+              <dd>{row.followingError === undefined ? "–" : fixed(row.followingError, 4)}</dd>
             </dl>
             <Load letter={row.letter} load={row.load} />
           </div>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The views, and what the operator chooses for this browser.
-import { language, theme, type Theme, themes } from "../state/preferences";
+import { type Language, language, theme, type Theme, themes } from "../state/preferences";
 import { view, type ViewName } from "../state/store";
-import { type Language, languages, text, type Texts } from "../text/texts";
+import { languages, text, type Texts } from "../text/texts";
 import { WhoIsThere } from "./Login";
 import { OperatingKey } from "./OperatingRight";
 

@@ -6,14 +6,13 @@ import type { Axes } from "../analysis/offered";
 import type { Recording } from "../analysis/recording";
 import { type Quantity, quantityOf } from "../analysis/signals";
 import { tipColumns } from "../analysis/tip";
+import { shortNumber, typedNumber } from "../format";
 import type { Chain } from "../scene/chain";
 import type { RecordedPath } from "../scene/recorded_path";
 import { speedColour } from "../scene/path";
 import { colour, shownTheme } from "../state/preferences";
 import { channel } from "../state/store";
 import { text } from "../text/texts";
-import { typedNumber } from "./Cell";
-import { shortNumber } from "./Waveforms";
 
 const colours = Array.from({ length: 9 }, (_, i) => `rgb(${speedColour(i / 8).join()})`).join();
 const units: Record<Quantity, string> = { speed: "mm/s", acceleration: "mm/s\u00b2", jerk: "mm/s\u00b3", following: "mm" };

@@ -6,10 +6,11 @@ import { axesOf, offeredSignals, type Signal } from "../analysis/offered";
 import { csvOf, type Recording, rowAt, secondsOf } from "../analysis/recording";
 import { mostSignals } from "../analysis/sampler";
 import { envelope, largest, type Quantity, spectrum } from "../analysis/signals";
+import { fixed, shortNumber } from "../format";
 import { text, type Texts } from "../text/texts";
 import { RecordedScene } from "./RecordedScene";
 import { SampleTable } from "./SampleTable";
-import { type Lane, type Mark, shortNumber, Waveforms } from "./Waveforms";
+import { type Lane, type Mark, Waveforms } from "./Waveforms";
 
 const buckets = 1200;
 
@@ -28,8 +29,8 @@ function Cursors({ recording, signals, a, b }: { recording: Recording; signals: 
           <tbody>
             <tr>
               <td>s</td>
-              <td class="right">{secondsOf(recording, a).toFixed(4)}</td>
-              <td class="right">{b === null ? "–" : secondsOf(recording, b).toFixed(4)}</td>
+              <td class="right">{fixed(secondsOf(recording, a), 4)}</td>
+              <td class="right">{b === null ? "–" : fixed(secondsOf(recording, b), 4)}</td>
               <td class="right" data-test="cursor-time">{b === null ? "–" : (secondsOf(recording, b) - secondsOf(recording, a)).toFixed(4)}</td>
             </tr>
             {signals.map((signal) => (

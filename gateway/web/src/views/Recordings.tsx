@@ -2,9 +2,10 @@
 // The recordings that the machine keeps: start, stop, open, download, delete.
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import type { Source } from "../analysis/open_file";
+import type { Source } from "../analysis/recording";
 import { get, post, remove } from "../api";
 import type { RecordingEntry, RecordingList } from "../contract";
+import { fixed } from "../format";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
 import { lackingToStore } from "./Guard";
@@ -24,8 +25,6 @@ async function order(done: Promise<{ ok: boolean; reason: string }>): Promise<vo
   if (!answer.ok) tell(answer.reason, true);
   await refresh();
 }
-
-const megabytes = (bytes: number) => (bytes / 1e6).toFixed(1);
 
 /** `opened` shows a recording, `compared` its difference from the one that is shown; null when none is. */
 export function Recordings({ opened, compared }: { opened: (source: Source) => void; compared: ((source: Source) => void) | null }) {
@@ -48,7 +47,7 @@ export function Recordings({ opened, compared }: { opened: (source: Source) => v
         ) : (
           <button onClick={() => void order(post("/api/recordings"))}>{t.startRecording}</button>
         )}
-        {known && <span class="dim">{t.freeSpace((known.free / 1e9).toFixed(1))}</span>}
+        {known && <span class="dim">{t.freeSpace(fixed(known.free / 1e9, 1))}</span>}
       </div>
       {known?.problem && <p role="alert">{known.problem}</p>}
       {known?.recordings.length === 0 && <p class="dim">{t.noRecordings}</p>}
@@ -67,7 +66,7 @@ export function Recordings({ opened, compared }: { opened: (source: Source) => v
             {known.recordings.map((one) => (
               <tr key={one.name}>
                 <th scope="row">{one.name}</th>
-                <td class="digits">{megabytes(one.size)}</td>
+                <td class="digits">{fixed(one.size / 1e6, 1)}</td>
                 <td class="digits">{new Date(one.modified).toLocaleString()}</td>
                 <td class="recordings-keys">
                   <button aria-label={`${t.openShort} ${one.name}`} onClick={() => opened(source(one))}>{t.openShort}</button>

@@ -4,6 +4,7 @@ import { useSignal } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 import type { Signal } from "../analysis/offered";
 import { type Recording, secondsOf } from "../analysis/recording";
+import { fixed } from "../format";
 import { text } from "../text/texts";
 
 const rowHeight = 28, head = 30;
@@ -64,7 +65,7 @@ export function SampleTable({ recording, signals, selected, select }: Props) {
             {Array.from({ length: Math.min(visible.value, count) }, (_, i) => start + i).map((row) => (
               <tr key={row} aria-selected={row === selected} data-row={row} onClick={() => select(row)}>
                 <td>{recording.cycles[row]}</td>
-                <td class="right">{secondsOf(recording, row).toFixed(4)}</td>
+                <td class="right">{fixed(secondsOf(recording, row), 4)}</td>
                 {signals.map((signal) => <td class="right" key={signal.name}>{exactly(signal.values()[row] ?? NaN)}</td>)}
               </tr>
             ))}

@@ -6,10 +6,10 @@ import { useEffect } from "preact/hooks";
 import { liveSignals, rowsOf } from "../analysis/live_signals";
 import type { Recording } from "../analysis/recording";
 import { mostSignals, Sampler, type Trigger } from "../analysis/sampler";
+import { typedNumber } from "../format";
 import { cyclePeriod } from "../state/cycle_period";
 import { channel, machine, tell } from "../state/store";
 import { text } from "../text/texts";
-import { typedNumber } from "./Cell";
 import { RecordingView } from "./RecordingView";
 
 const chosen = signal<string[] | null>(null);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { millimetres, whole } from "../format";
+import { fixed, whole } from "../format";
 import { channel, machine } from "../state/store";
 import { text } from "../text/texts";
 
@@ -25,7 +25,7 @@ export function Technology() {
           <b>T</b>
           <span class="value">{one.tool}</span>
           <span class="dim">
-            H{one.length_offset} · {millimetres(one.tool_length)} mm
+            H{one.length_offset} · {fixed(one.tool_length)} mm
           </span>
         </div>
       </div>

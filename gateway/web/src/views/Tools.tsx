@@ -3,12 +3,16 @@
 import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Answer, get, put, remove } from "../api";
-import type { Tool, ToolTable } from "../contract";
-import { millimetres, refusal } from "../format";
-import { channel, machine, tell } from "../state/store";
+import type { LifeUnit, Parameter, Tool, ToolTable } from "../contract";
+import { fixed, refusal, typedNumber } from "../format";
+import { PlcWatch } from "../plc/watch";
+import { placeOf, placesOf, tableOf, tableParameter } from "../state/magazine";
+import { channel, channelNumber, commandTo, machine, tell } from "../state/store";
+import { changeLine, mayChange } from "../state/tool_change";
+import { isUsedUp, lifeNumber, lifeText } from "../state/tool_life";
 import { changedSince, remember } from "../state/undo";
 import { text } from "../text/texts";
-import { Cell, typedNumber } from "./Cell";
+import { Cell } from "./Cell";
 import { Guard, lacking } from "./Guard";
 import { ask } from "./Question";
 
@@ -45,6 +49,33 @@ async function change(before: Tool | undefined, after: Tool | undefined, what: s
   return answer;
 }
 
+const nothing: PlcWatch["values"]["value"] = new Map();
+
+/** Places of the chosen channel's magazine by T number, live; empty while the PLC does not give them. */
+function useMagazine(): ReadonlyMap<number, number> {
+  const number = channelNumber.value;
+  const hasPlc = machine.value.plc !== undefined;
+  const watch = useSignal<PlcWatch | null>(null);
+  useEffect(() => {
+    if (!hasPlc || number === null) return;
+    let wanted = true;
+    let opened: PlcWatch | undefined;
+    void get<Parameter>(`/api/parameters/${tableParameter(number)}`).then((answer) => {
+      const path = tableOf(number, answer.ok ? String(answer.body?.value ?? "") : "");
+      if (!wanted || path === "") return;
+      opened = new PlcWatch();
+      opened.set([path]);
+      watch.value = opened;
+    });
+    return () => {
+      wanted = false;
+      opened?.close();
+      watch.value = null;
+    };
+  }, [hasPlc, number]);
+  return placesOf(watch.value?.values.value ?? nothing);
+}
+
 type Field = "length" | "length_wear" | "radius" | "radius_wear";
 
 function NewTool() {
@@ -54,7 +85,9 @@ function NewTool() {
     const wanted = typedNumber(number.value);
     if (wanted === undefined || !Number.isInteger(wanted) || wanted < 1) return tell(`${t.toolNumber}: ${t.notANumber}`, true);
     if (table.peek().tools.some((tool) => tool.number === wanted)) return tell(t.toolExists(wanted), true);
-    const made = { number: wanted, length: 0, length_wear: 0, radius: 0, radius_wear: 0, name: "" };
+    const made: Tool = {
+      number: wanted, length: 0, length_wear: 0, radius: 0, radius_wear: 0, name: "", type: "", life_used: 0, life_limit: 0, life_unit: "MINUTES",
+    };
     const answer = await change(undefined, made, t.toolCreated(wanted));
     if (!answer.ok) return tell(refusal(`T${wanted}`, answer.reason), true);
     number.value = "";
@@ -75,14 +108,13 @@ function NewTool() {
   );
 }
 
-/** The name is stored when it is left; while it is typed nothing else changes it. */
-function NameCell({ tool }: { tool: Tool }) {
+/** The text is stored when it is left; while it is typed nothing else changes it. */
+function TextCell({ tool, field, label, longest }: { tool: Tool; field: "name" | "type"; label: string; longest: number }) {
   const draft = useSignal<string | null>(null);
-  const label = text.value.toolName(tool.number);
   const commit = async () => {
-    const name = draft.value;
-    if (name !== null && name !== tool.name) {
-      const answer = await change(tool, { ...tool, name }, `T${tool.number} ${tool.name} → ${name}`);
+    const entered = draft.value;
+    if (entered !== null && entered !== tool[field]) {
+      const answer = await change(tool, { ...tool, [field]: entered }, `T${tool.number} ${tool[field]} → ${entered}`);
       if (!answer.ok) tell(refusal(label, answer.reason), true);
     }
     draft.value = null;
@@ -92,8 +124,8 @@ function NameCell({ tool }: { tool: Tool }) {
       class="name-cell"
       aria-label={label}
       disabled={lacking("setter") !== ""}
-      value={draft.value ?? tool.name}
-      maxLength={64}
+      value={draft.value ?? tool[field]}
+      maxLength={longest}
       onInput={(event) => (draft.value = event.currentTarget.value)}
       onBlur={() => void commit()}
       onKeyDown={(event) => {
@@ -108,6 +140,17 @@ function NameCell({ tool }: { tool: Tool }) {
   );
 }
 
+/** Orders the change of the chosen channel's tool; what the channel or the gateway refuses is told with its reason. */
+async function load(tool: number): Promise<void> {
+  const one = channel.peek();
+  if (!one) return;
+  const t = text.peek();
+  const title = t.loadTool(tool);
+  if (!mayChange(one)) return tell(`${title}: ${t.notAtRest(one.suspended ? t.stateHELD : t[`state${one.state}`])}`, true);
+  if (one.mode !== "MDI" && !(await commandTo(one.channel, title, "mode", { mode: "MDI" }))) return;
+  if (await commandTo(one.channel, title, "mdi", { line: changeLine(tool) })) tell(t.loadOrdered(changeLine(tool)), false);
+}
+
 function Wear({ tool }: { tool: Tool }) {
   const deltas = useSignal({ length_wear: "", radius_wear: "" });
   const t = text.value;
@@ -115,16 +158,15 @@ function Wear({ tool }: { tool: Tool }) {
     const delta = typedNumber(deltas.value[field]);
     if (delta === undefined) return tell(`${title}: ${t.notANumber}`, true);
     const value = Math.round((tool[field] + delta) * 1e9) / 1e9;
-    const answer = await change(tool, { ...tool, [field]: value }, `T${tool.number} ${title} ${millimetres(tool[field])} → ${millimetres(value)}`);
+    const answer = await change(tool, { ...tool, [field]: value }, `T${tool.number} ${title} ${fixed(tool[field])} → ${fixed(value)}`);
     if (!answer.ok) return tell(refusal(title, answer.reason), true);
     deltas.value = { ...deltas.value, [field]: "" };
   };
   return (
-    <section class="side-form" aria-label={t.toolDetail(tool.number)}>
-      <div class="title"><h2>{t.toolDetail(tool.number)}</h2> <b>{tool.name}</b></div>
+    <>
       <dl>
-        <dt>{t.activeLength}</dt><dd class="digits">{millimetres(tool.length + tool.length_wear)} mm</dd>
-        <dt>{t.activeRadius}</dt><dd class="digits">{millimetres(tool.radius + tool.radius_wear)} mm</dd>
+        <dt>{t.activeLength}</dt><dd class="digits">{fixed(tool.length + tool.length_wear)} mm</dd>
+        <dt>{t.activeRadius}</dt><dd class="digits">{fixed(tool.radius + tool.radius_wear)} mm</dd>
       </dl>
       {([["length_wear", t.lengthWear], ["radius_wear", t.radiusWear]] as const).map(([field, title]) => (
         <form
@@ -142,15 +184,59 @@ function Wear({ tool }: { tool: Tool }) {
           <button type="submit">{t.addTo(title)}</button>
         </form>
       ))}
-      <button
-        disabled={tool.number === channel.value?.tool}
-        onClick={() =>
-          ask(t.deleteToolQuestion(tool.number), t.deleteKey, () => {
-            void change(tool, undefined, t.toolDeleted(tool.number)).then((answer) => !answer.ok && tell(refusal(`T${tool.number}`, answer.reason), true));
-          })}
-      >
-        {t.deleteTool(tool.number)}
-      </button>
+    </>
+  );
+}
+
+/** What kind of tool it is, how much of its life is used, and at how much it is used up: all of it is entered. */
+function TypeAndLife({ tool }: { tool: Tool }) {
+  const t = text.value;
+  const set = (after: Tool) => change(tool, after, `T${tool.number} ${t.life} ${lifeText(tool, t)} → ${lifeText(after, t)}`);
+  const setUnit = async (life_unit: LifeUnit) => {
+    const answer = await set({ ...tool, life_unit });
+    if (!answer.ok) tell(refusal(t.lifeUnit, answer.reason), true);
+  };
+  const cell = (field: "life_used" | "life_limit", title: string) => (
+    <Cell value={tool[field]} shown={lifeNumber} label={`T${tool.number} ${title}`} store={(value) => set({ ...tool, [field]: value })} />
+  );
+  return (
+    <>
+      <dl>
+        <dt>{t.toolType}</dt><dd><TextCell tool={tool} field="type" label={`T${tool.number} ${t.toolType}`} longest={32} /></dd>
+        <dt>{t.life}</dt><dd class="dim">{t.lifeAbout}</dd>
+      </dl>
+      <div class="row" role="group" aria-label={t.life}>
+        {cell("life_used", t.lifeUsed)}
+        {cell("life_limit", t.lifeLimit)}
+        <select aria-label={t.lifeUnit} value={tool.life_unit} onChange={(event) => void setUnit(event.currentTarget.value as LifeUnit)}>
+          <option value="MINUTES">{t.lifeMinutes}</option>
+          <option value="PIECES">{t.lifePieces}</option>
+        </select>
+      </div>
+    </>
+  );
+}
+
+/** The chosen tool: an operator loads it, a setter changes it. */
+function Detail({ tool }: { tool: Tool }) {
+  const t = text.value;
+  const { number } = tool;
+  const inSpindle = number === channel.value?.tool;
+  const erase = async () => {
+    const answer = await change(tool, undefined, t.toolDeleted(number));
+    if (!answer.ok) tell(refusal(`T${number}`, answer.reason), true);
+  };
+  return (
+    <section class="side-form" aria-label={t.toolDetail(number)}>
+      <div class="title"><h2>{t.toolDetail(number)}</h2> <b>{tool.name}</b></div>
+      <Guard needs="operator">
+        <button class="primary" data-test="load-tool" disabled={inSpindle} title={t.loadToolAbout} onClick={() => void load(number)}>{t.loadTool(number)}</button>
+      </Guard>
+      <Guard needs="setter">
+        <Wear tool={tool} />
+        <TypeAndLife tool={tool} />
+        <button disabled={inSpindle} onClick={() => ask(t.deleteToolQuestion(number), t.deleteKey, () => void erase())}>{t.deleteTool(number)}</button>
+      </Guard>
     </section>
   );
 }
@@ -158,12 +244,14 @@ function Wear({ tool }: { tool: Tool }) {
 export function Tools() {
   const revision = machine.value.revisions.tools;
   useEffect(() => void refresh(), [revision]);
+  const places = useMagazine();
   const t = text.value;
+  const place = (tool: number) => placeOf(tool, channel.value?.tool ?? 0, places);
   const fields: [Field, string][] = [["length", t.length], ["length_wear", t.lengthWear], ["radius", t.radius], ["radius_wear", t.radiusWear]];
   const one = table.value.tools.find((tool) => tool.number === chosen.value);
   return (
     <>
-      <section class="list" aria-label={t.tools}>
+      <section class="list tool-table" aria-label={t.tools}>
         <div class="title">
           <h2>{t.tools}</h2>
           <span class="dim">{t.toolsAbout}</span>
@@ -172,19 +260,22 @@ export function Tools() {
         <div class="scroll">
           <table>
             <thead>
-              <tr><th>T</th><th>{t.name}</th>{fields.map(([field, title]) => <th class="right" key={field}>{title}</th>)}</tr>
+              <tr><th>T</th><th>{t.name}</th><th>{t.toolType}</th><th>{t.magazinePlace}</th><th title={t.lifeAbout}>{t.life}</th>{fields.map(([field, title]) => <th class="right" key={field}>{title}</th>)}</tr>
             </thead>
             <tbody>
               {table.value.tools.map((tool) => (
                 <tr key={tool.number} class={tool.number === channel.value?.tool ? "chosen" : ""}>
                   <td><button aria-pressed={tool.number === chosen.value} aria-label={t.toolDetail(tool.number)} onClick={() => (chosen.value = tool.number)}>T{tool.number}</button></td>
-                  <td><NameCell tool={tool} /></td>
+                  <td><TextCell tool={tool} field="name" label={t.toolName(tool.number)} longest={64} /></td>
+                  <td>{tool.type}</td>
+                  <td data-test={`place-${tool.number}`}>{place(tool.number) === 0 ? t.spindlePlace : (place(tool.number) ?? "–")}</td>
+                  <td data-test={`life-${tool.number}`}><span class={isUsedUp(tool) ? "tag warn" : ""}>{lifeText(tool, t)}</span></td>
                   {fields.map(([field, title]) => (
                     <td class="right" key={field}>
                       <Cell
                         value={tool[field]}
                         label={`T${tool.number} ${title}`}
-                        store={(value) => change(tool, { ...tool, [field]: value }, `T${tool.number} ${title} ${millimetres(tool[field])} → ${millimetres(value)}`)}
+                        store={(value) => change(tool, { ...tool, [field]: value }, `T${tool.number} ${title} ${fixed(tool[field])} → ${fixed(value)}`)}
                       />
                     </td>
                   ))}
@@ -195,7 +286,7 @@ export function Tools() {
           {table.value.tools.length === 0 && <p class="dim">{t.noTools}</p>}
         </div>
       </section>
-      {one ? <Guard needs="setter"><Wear key={one.number} tool={one} /></Guard> : <section class="side-form dim" aria-label={t.tools}>{t.chooseTool}</section>}
+      {one ? <Detail key={one.number} tool={one} /> : <section class="side-form dim" aria-label={t.tools}>{t.chooseTool}</section>}
     </>
   );
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Signals over time, one lane each, with two cursors. The same component draws a spectrum.
 import { useEffect, useRef } from "preact/hooks";
+import { shortNumber } from "../format";
 import { colour, shownTheme } from "../state/preferences";
 
 export interface Lane {
@@ -18,9 +19,6 @@ export interface Mark {
 const names = ["accent", "good", "warn", "axis-x", "curve-5", "curve-6", "curve-7", "curve-8", "curve-9"];
 export const laneColour = (index: number) => colour(names[index % names.length]!);
 const left = 8, labels = 18, bottom = 20;
-
-/** Four significant digits. */
-export const shortNumber = (value: number) => (Number.isFinite(value) ? String(Number(value.toPrecision(4))).replace("-", "\u2212") : "\u2013");
 
 function draw(canvas: HTMLCanvasElement, lanes: readonly Lane[], from: number, to: number, marks: readonly Mark[], unit: string): void {
   const ratio = window.devicePixelRatio || 1;

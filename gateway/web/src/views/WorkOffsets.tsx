@@ -4,13 +4,13 @@ import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Answer, get, put } from "../api";
 import type { WorkOffset, WorkOffsets as Table } from "../contract";
-import { millimetres, refusal } from "../format";
+import { fixed, refusal, typedNumber } from "../format";
 import type { Channel } from "../state/model";
 import { channel, channels, machine, tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
 import { axisLetters, hindrances, isTakenOver, type OffsetChange, offsetChange, offsetCount, offsetFor, offsetName } from "../state/work_zero";
 import { text } from "../text/texts";
-import { Cell, typedNumber } from "./Cell";
+import { Cell } from "./Cell";
 import { Guard } from "./Guard";
 
 const table = signal<Table>({ set: 0, revision: 0, offsets: [] });
@@ -45,7 +45,7 @@ async function store(row: WorkOffset, values: number[]): Promise<Answer> {
   const answer = await send(row.values, values, table.peek().revision);
   if (!answer.ok) return answer;
   const different = [...axisLetters].flatMap((letter, i) =>
-    row.values[i] === values[i] ? [] : [`${letter} ${millimetres(row.values[i] ?? 0)} → ${millimetres(values[i]!)}`]);
+    row.values[i] === values[i] ? [] : [`${letter} ${fixed(row.values[i] ?? 0)} → ${fixed(values[i]!)}`]);
   remember({
     what: `${offsetName(index)} ${different.join(", ")}`,
     undo: async () => {
@@ -109,7 +109,7 @@ function FromPosition({ one }: { one: Channel }) {
             {columnsOf(one).map(({ letter, column }) => (
               <tr key={letter}>
                 <td><b>{letter}</b></td>
-                <td class="right digits">{millimetres(shown(letter))}</td>
+                <td class="right digits">{fixed(shown(letter))}</td>
                 <td>
                   <input
                     class="short digits" inputMode="decimal" placeholder="0" aria-label={t.shallShowOf(letter)} value={wanted.value[letter] ?? ""}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/utf8.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace trunnion::text {
+namespace {
+
+TEST(Utf8, WellFormedAndIllFormedSequences) {
+  // Unicode 15 table 3-7: first and last sequence of each row, and their neighbours outside.
+  for (const char* good :
+       {"", "abc", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xee\x80\x80", "\xef\xbf\xbf",
+        "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf", "12345678\u00e412345678"}) {
+    EXPECT_EQ(valid_utf8_prefix(good), std::string_view(good).size()) << good;
+  }
+  for (const char* bad :
+       {"ab\x80", "ab\xc1\xbf", "ab\xc3", "ab\xe0\x9f\xbf", "ab\xed\xa0\x80", "ab\xf0\x8f\xbf\xbf",
+        "ab\xf4\x90\x80\x80", "ab\xf5\x80\x80\x80", "ab\xe2\x82", "ab\xff"}) {
+    EXPECT_EQ(valid_utf8_prefix(bad), 2u) << bad;
+  }
+}
+
+TEST(Shortened, LeavesWhatFitsAndMarksWhatDoesNot) {
+  EXPECT_EQ(shortened("", 8), "");
+  EXPECT_EQ(shortened("12345678", 8), "12345678");
+  EXPECT_EQ(shortened("123456789", 8), "1234 ...");
+  EXPECT_EQ(shortened("12  56789", 8), "12 ...");
+  EXPECT_EQ(shortened("123456789", 4), " ...");
+}
+
+// With 10 bytes six are left before the mark: the three bytes of the euro sign are the fifth to the seventh.
+TEST(Shortened, CutsNoCharacterInTwo) {
+  EXPECT_EQ(shortened("1234\xe2\x82\xac"
+                      "5678",
+                      10),
+            "1234 ...");
+  EXPECT_EQ(shortened("123\xe2\x82\xac"
+                      "45678",
+                      10),
+            "123\xe2\x82\xac ...");
+  EXPECT_EQ(shortened("12345\xc3\xa9"
+                      "6789",
+                      10),
+            "12345 ...");
+}
+
+TEST(Shortened, IsNeverLongerThanItMayBe) {
+  std::string text;
+  for (int i = 0; i < 30; ++i) text += i % 3 == 0 ? "x" : i % 3 == 1 ? "\xc3\xa9" : "\xf0\x9f\x98\x80";
+  for (std::size_t most = 4; most < text.size(); ++most) {
+    const auto found = shortened(text, most);
+    EXPECT_LE(found.size(), most);
+    EXPECT_GT(found.size() + 4, most) << "a character has four bytes at most";
+    EXPECT_EQ(valid_utf8_prefix(found), found.size());
+    EXPECT_TRUE(found.ends_with(" ..."));
+  }
+}
+
+}  // namespace
+}  // namespace trunnion::text

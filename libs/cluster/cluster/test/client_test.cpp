@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a client reads of a cluster is not older than what it was answered.
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "cluster/client.hpp"
+#include "testing_support/eventually.hpp"
+
+namespace trunnion::cluster {
+namespace {
+
+using idl::channel::ChannelState;
+using testing_support::eventually;
+constexpr std::uint32_t client_domain = 65;
+
+bool is_ready(const std::future<std::uint64_t>& answer) {
+  return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+TEST(Client, GivesOfATopicWithHistoryWhatIsWrittenFromNowOn) {
+  bus::Bus drive(bus::Vendor::cyclonedds, {client_domain});
+  auto writer = drive.writer(topics::feedback);
+  idl::stream::Feedback batch;
+  for (batch.tick = 1; batch.tick <= 20; ++batch.tick) writer.write(batch);
+  Client client(bus::NetworkSettings{client_domain});
+  auto read = std::async(std::launch::async, [&] { return client.newest(topics::feedback).tick; });
+  ASSERT_TRUE(eventually([&] { return writer.matched() == 1 || is_ready(read); }));
+  ASSERT_TRUE(eventually([&] {
+    writer.write(batch);
+    ++batch.tick;
+    return is_ready(read);
+  }));
+  EXPECT_GT(read.get(), 20u);
+}
+
+TEST(Client, GivesTheStateOfTheChannelThatIsAskedFor) {
+  bus::Bus channels(bus::Vendor::cyclonedds, {client_domain});
+  std::vector<bus::Writer<ChannelState>> writers;
+  for (std::uint16_t channel = 0; channel < 2; ++channel) {
+    writers.push_back(channels.writer(topics::channel_state));
+    ChannelState state;
+    state.channel = channel;
+    writers.back().write(state);
+  }
+  Client client(bus::NetworkSettings{client_domain});
+  for (int i = 0; i < 20; ++i)
+    for (const std::uint16_t channel : {1, 0})
+      EXPECT_EQ(client.newest(topics::channel_state, channel).channel, channel);
+}
+
+// The writer's one sample of a state is that of the newest reply, whatever other readers have not yet taken.
+TEST(Client, GivesAStateThatIsNotOlderThanTheReply) {
+  bus::Bus channel(bus::Vendor::cyclonedds, {client_domain});
+  auto writer = channel.writer(topics::channel_state);
+  service::RequestServer<ChannelRequest, ChannelReply> server(channel, topics::channel_request,
+                                                              topics::channel_reply);
+  std::atomic<bool> over = false;
+  std::thread answering([&] {
+    for (ChannelRequest request; !over; channel.signal().wait(0.01))
+      while (server.take(request)) {
+        ChannelState state;
+        state.parts = request.parts;
+        writer.write(state);
+        server.reply(request, {0, 0, true, 0, "", 0});
+      }
+  });
+  Client client(bus::NetworkSettings{client_domain});
+  auto untaken = client.bus().reader(topics::channel_state);
+  for (std::uint32_t parts = 1; parts <= 50; ++parts) {
+    client.channel({.command = CommandKind::SET_PARTS, .parts = parts});
+    EXPECT_EQ(client.newest(topics::channel_state, 0).parts, parts);
+  }
+  over = true;
+  answering.join();
+}
+
+}  // namespace
+}  // namespace trunnion::cluster

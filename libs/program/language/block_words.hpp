@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words of the block being executed: its codes, its letters, and which of them had a meaning.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "language/block.hpp"
+#include "language/codes.hpp"
+#include "language/environment.hpp"
+#include "language/letters.hpp"
+
+namespace trunnion::language {
+
+inline constexpr double longest_dwell = 99999.999;  // seconds
+
+constexpr std::uint32_t group_bit(Group group) { return 1u << static_cast<unsigned>(group); }
+
+/// The G codes of a block, at most one of each group.
+class GCodes {
+ public:
+  void clear() { present_ = 0; }
+  void add(const GCode& code, std::uint16_t at) {
+    present_ |= group_bit(code.group);
+    codes_[static_cast<std::size_t>(code.group)] = &code;
+    offsets_[static_cast<std::size_t>(code.group)] = at;
+  }
+  /// A bit for each group.
+  std::uint32_t present() const { return present_; }
+  bool has(Group group) const { return (present_ & group_bit(group)) != 0; }
+  bool is(Group group, std::uint16_t tenths) const { return has(group) && code(group).tenths == tenths; }
+  /// Of a group that is present.
+  const GCode& code(Group group) const { return *codes_[static_cast<std::size_t>(group)]; }
+  std::uint16_t offset(Group group) const { return offsets_[static_cast<std::size_t>(group)]; }
+
+ private:
+  std::uint32_t present_ = 0;
+  std::array<const GCode*, group_count> codes_{};
+  std::array<std::uint16_t, group_count> offsets_{};
+};
+
+struct MCodes {
+  std::array<MCode, max_m_codes> codes{};
+  std::array<std::uint16_t, max_m_codes> offsets{};
+  std::uint8_t count = 0;
+};
+
+/// Gives the words of a block to those who carry its codes out. Lengths and positions come in mm; every word
+/// that is asked for counts as used, but for has(), value(), offset() and axis().
+class BlockWords {
+ public:
+  /// `modal` has the units.
+  explicit BlockWords(const ModalState& modal) : modal_(modal) {}
+
+  /// For the channel of `machine`, which must live as long as its words are read.
+  void configure(const Environment& machine);
+
+  /// The next block, which must live as long as its words are read. Checks its numbers and its codes.
+  Fault begin(const Block& block);
+
+  const GCodes& g() const { return g_; }
+  const MCodes& m() const { return m_; }
+  std::uint32_t letters() const { return block_->letters; }
+  bool has(char letter) const { return block_->has(letter); }
+  double value(char letter) const { return block_->value(letter); }
+  std::uint16_t offset(char letter) const { return block_->offset(letter); }
+  /// Where the first of `letters`, at least one of which the block has, is in the alphabet.
+  std::uint16_t offset_of_any(std::uint32_t letters) const {
+    return block_->offsets[static_cast<std::size_t>(std::countr_zero(letters & block_->letters))];
+  }
+  /// Where the block's first code is, or its first letter when it has none.
+  std::uint16_t first_offset() const;
+  bool has_codes() const { return block_->g_count != 0 || block_->m_count != 0; }
+  /// One G code and nothing else but the sequence number.
+  bool single_code() const;
+
+  void use(char letter) { used_ |= Block::bit(letter); }
+  void use_axes() { used_ |= block_->letters & axis_bits; }
+  bool used(char letter) const { return (used_ & Block::bit(letter)) != 0; }
+  /// An alarm at the first word that had no meaning.
+  Fault report_unused() const;
+
+  /// The control or the machine's logic carries M`code` out.
+  bool has_function(const MCode& code) const;
+  /// A whole number in [low, high].
+  Fault whole_number(char letter, std::uint32_t low, std::uint32_t high, std::uint32_t& value);
+  /// Seconds: P in milliseconds, or as the machine takes a decimal point in it (P1.5).
+  Fault dwell(double longest, double& seconds);
+  /// mm, 0 when absent.
+  double length(char letter);
+  /// mm or degrees, as programmed for the axis (diameters halved).
+  double axis(std::size_t axis) const;
+  /// The axes named, a bit for each; the channel must have them.
+  Fault find_axes(std::uint32_t& axes) const;
+  /// The axes named, at least one, all of them used.
+  Fault take_axes(std::uint16_t at, std::uint32_t& axes);
+  /// mm of a length word's unit.
+  double length_scale() const { return modal_.metric ? 1.0 : 25.4; }
+
+ private:
+  Fault check_numbers() const;
+  Fault collect_g();
+  Fault collect_m();
+
+  const ModalState& modal_;
+  const Block* block_ = nullptr;
+  GCodes g_;
+  MCodes m_;
+  std::uint32_t used_ = 0;
+  std::uint16_t channel_axes_ = 0;
+  bool diameter_ = false;
+  const MFunctions* functions_ = nullptr;
+  DwellPoint dwell_point_ = DwellPoint::refused;
+};
+
+}  // namespace trunnion::language

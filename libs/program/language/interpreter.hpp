@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// Program text to canonical commands, one at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "language/block_executor.hpp"
+#include "language/control_variables.hpp"
+#include "language/endless_loop.hpp"
+#include "language/iso_dialect.hpp"
+#include "language/jump_cache.hpp"
+#include "language/line_reader.hpp"
+#include "language/macro_call.hpp"
+#include "language/modal_calls.hpp"
+#include "language/open_structures.hpp"
+
+namespace trunnion::language {
+
+enum class Step : std::uint8_t {
+  command,   ///< a command was written
+  working,   ///< a bounded number of blocks was read without a command: call again when convenient
+  pending,   ///< the text source has to deliver first: call again later
+  end,       ///< the end command was taken before
+  alarm,     ///< see alarm(); stays so until start()
+  position,  ///< the command before was a skip move: set_position() must report where it ended, for what the
+             ///< program does next depends on it
+  answer,    ///< the command before calls a cycle of another service: answer() must report what it has said
+  line,      ///< the line of stop_before_line() would be read next; it will be, when next() is called again
+};
+
+struct InterpreterOptions {
+  SkipLevels block_skip = 0;  ///< leave out blocks that begin with / (level 1) or /n of a level in it
+  bool repeat = true;         ///< M99 in the main program begins it again, else it ends it
+};
+
+/// Variables of a control that has never run a program.
+inline constexpr VariableStore no_variables{};
+
+/// Interprets a program, pulled by its user. The commands are a function of the texts, the environment, the
+/// options, the arguments of start() and the times of set_time() alone, whatever the sizes and delays of the
+/// source's chunks; so the k-th command can be found again by taking k commands. Allocates in its constructor
+/// only.
+///
+/// M98 P1234 and G65 P1234 call the program that begins with O1234 or %1234 in the same text, else the text
+/// Environment::subprogram finds for "O1234"; M98 P31234 without L calls O1234 three times when there is no
+/// O31234; G1007 calls %1007 of the text "USERDEF.CYC". A main program ends with M2, M30, its text, a lone %
+/// or the head of the next program; M99 there starts it again from its top. A subprogram must end with M99.
+/// GOTO and M99 P look for N forward, then from the top of the program. While G66 is active, each block that
+/// moves, but for those of the called macro itself, is followed by the call.
+class Interpreter {
+ public:
+  /// `environment` and `dialect` must outlive the interpreter.
+  explicit Interpreter(Environment& environment, InterpreterOptions options = {},
+                       const Dialect& dialect = iso_dialect());
+  Interpreter(const Interpreter&) = delete;
+  Interpreter& operator=(const Interpreter&) = delete;
+
+  /// Begins `text`, a program or an MDI line, at `position` (in the frame of `initial.transformation`) with
+  /// the modal state of the control at power-on or of the program before, and its variables. Beginning::line
+  /// continues in the frames, the cycle and the modal macro of the line before; `initial` is then its
+  /// modal().
+  void start(TextSource& text, const AxisValues& position, const ModalState& initial,
+             const VariableStore& variables = no_variables, Beginning beginning = Beginning::program);
+
+  /// Blocks to leave out, from the next start() on.
+  void set_block_skip(SkipLevels levels) { options_.block_skip = levels; }
+
+  /// Once, before `line` (from 1) of the started text is executed for the first time, next() gives
+  /// Step::line: modal() and position() are then the state in which it begins. 0 = nowhere. Ends with
+  /// start().
+  void stop_before_line(std::uint32_t line) { stop_line_ = line; }
+
+  /// Ends a program, without the end command, where `watch` finds that it repeats for ever. It must be used
+  /// for one program and outlive it; null: none.
+  void watch_loops(EndlessLoop* watch) { watch_ = watch; }
+
+  /// The next command. Before start() there is only the end.
+  Step next(Command& command);
+
+  /// Why next() gave Step::alarm.
+  const Alarm& alarm() const { return alarm_; }
+
+  /// Sets where the machine really is, in the frame of modal().transformation, for the blocks not read yet:
+  /// after a move that ended elsewhere than commanded. Only sensible when next() has nothing prepared: after
+  /// Step::end, or the command of a block's end.
+  void set_position(const AxisValues& position) { set_position(position, position); }
+  /// The same behind a skip move; `touched` is where its input found the axes (#5061).
+  void set_position(const AxisValues& position, const AxisValues& touched);
+
+  /// The answer of a called cycle, which #3100 reads. Programs that are called from now on are looked for
+  /// again: the service may have stored another text.
+  void answer(double value);
+
+  /// What the variables of time show from now on; before the first call they show zero.
+  void set_time(const ControlTime& time) { control_.set_time(time); }
+
+  /// The state after the last block that was read.
+  const ModalState& modal() const { return executor_.modal(); }
+  const AxisValues& position() const { return executor_.position(); }
+  /// Where the last command that next() gave ends in the workpiece: without offsets and, but for tool tip
+  /// control, the tool length.
+  AxisValues workpiece(const Command& command) const;
+  /// The frame in which a command that next() has just given was programmed.
+  const ProgramFrame& frame_of(const Command& command) const {
+    return executor_.frame_of(command.modal.frame);
+  }
+  /// Blocks executed since start(), a loop's each time.
+  std::uint64_t blocks() const { return blocks_; }
+  /// Lines read since start(), also those that a jump or a call has searched; a loop's each time.
+  std::uint64_t lines() const { return lines_; }
+  const VariableStore& variables() const { return variables_.store(); }
+  /// The local variables of the macro that is being read.
+  const std::array<Value, local_variables>& locals() const { return variables_.locals(); }
+  /// The line of the started text that is executed, or has called what is.
+  std::uint32_t main_line() const { return depth_ == 0 ? line_ : levels_[1].call_line; }
+
+  /// Positions, frames and tables as the program has left them, for system variables.
+  const BlockExecutor& executor() const { return executor_; }
+
+  static const Dialect& iso_dialect();
+
+ private:
+  struct CallLevel {
+    TextSource* source = nullptr;
+    std::uint32_t program = 0;
+    TextPosition top;             // first line of the program
+    TextPosition resume;          // where the caller continues
+    std::uint32_t call_line = 0;  // of the caller
+    std::uint32_t remaining = 0;  // repetitions after this one
+    bool started = false;         // a head or a word has been read
+    bool own_variables = false;
+    bool modal = false;           // called by G66
+    std::size_t modal_above = 0;  // of ModalCalls::enter()
+    OpenStructures open;
+  };
+  /// Where a call from one text leads, so that a long text is searched once and not at every call.
+  struct Found {
+    const TextSource* caller = nullptr;
+    std::uint32_t number = 0;       // as it was called
+    std::uint32_t repetitions = 0;  // when the number holds them
+    bool cycle = false;
+    TextSource* source = nullptr;
+    std::uint32_t program = 0;
+    TextPosition top;
+  };
+  enum class State : std::uint8_t { running, searching, done, failed };
+  enum class Purpose : std::uint8_t {
+    program,  ///< the head of a program
+    label,    ///< a sequence number
+    branch,   ///< ELSEIF, ELSE or ENDIF of the innermost IF
+    end,      ///< the end of the innermost structure
+  };
+  struct Search {
+    Purpose purpose = Purpose::program;
+    TextSource* source = nullptr;
+    std::uint32_t wanted = 0;
+    TextPosition from;      // of the line that jumps
+    bool from_top = false;  // second half of the search for a label
+    std::size_t depth = 0;  // structures open at the jump
+    OpenStructures open;
+  };
+
+  State run_line(Step& step);
+  State execute(std::string_view line);
+  State execute_words(std::string_view line);
+  State go(const Flow& flow, std::string_view line);
+  State end_of_text();
+  bool jumped_back(std::uint64_t from, std::size_t depth) const;
+  bool repeats_for_ever();
+  State fail(const Fault& fault, std::string_view line);
+  State fail(const Alarm& alarm);
+  State report_line_status(LineReader::Status status, Step& step);
+  Alarm located(const Fault& fault, std::string_view line);
+
+  State run_statement(std::string_view line);
+  State call_cycle(std::string_view line);
+  State branch(bool condition, std::string_view line);
+  State jump(Purpose purpose, std::uint32_t wanted, TextPosition from, const Fault& in_vain,
+             std::string_view line);
+  State search(Purpose purpose, std::uint32_t wanted, TextPosition from);
+  State arrive(const JumpCache::Target& target);
+  State search_line(Step& step);
+  State label_found(TextPosition position);
+  bool structure_found(Statement statement) const;
+  State search_ended();
+  static std::uint64_t key(Purpose purpose, std::uint32_t wanted) {
+    return (std::uint64_t{wanted} << 2) | static_cast<std::uint64_t>(purpose);
+  }
+
+  State call_macro(Call& call, std::string_view line);
+  State call(const Call& call, std::string_view line);
+  State found(TextSource& source, std::uint32_t program, TextPosition top);
+  State enter(const Found& target);
+  State return_from_subprogram(const Flow& flow, std::string_view line);
+
+  Environment& environment_;
+  const Dialect& dialect_;
+  InterpreterOptions options_;
+  BlockExecutor executor_;
+  ControlVariables control_;
+  Variables variables_;
+  LineReader reader_;
+  CommandQueue queue_;
+  Block block_;
+  CycleMCodes cycle_m_codes_{};
+  std::array<CallLevel, max_nesting + 1> levels_{};
+  std::size_t depth_ = 0;
+  State state_ = State::done;
+  Alarm alarm_;
+  std::uint32_t line_ = 0;  // of the block being executed
+  std::uint32_t stop_line_ = 0;
+  EndlessLoop* watch_ = nullptr;
+  std::uint64_t blocks_ = 0, lines_ = 0;
+  TextPosition position_;     // of that line
+  bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
+  // A jump that looks for its target, and the alarms if it is not found or not allowed.
+  Search search_;
+  JumpCache jumps_;
+  Alarm not_found_;
+  Alarm not_allowed_;
+  // A call that looks for its program: what was called and where to return to.
+  Call call_;
+  std::uint32_t called_ = 0;  // the number as written
+  Arguments arguments_;
+  TextPosition after_call_;
+  std::uint32_t call_line_ = 0;
+  ModalCalls modal_calls_;
+  std::array<Found, 16> found_{};
+  std::size_t next_found_ = 0;  // the entry the next search replaces
+};
+
+}  // namespace trunnion::language

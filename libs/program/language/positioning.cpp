@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "language/positioning.hpp"
+
+namespace trunnion::language {
+namespace {
+
+constexpr std::uint32_t highest_skip_input = 4;
+
+}  // namespace
+
+Fault Positioning::dwell(std::uint16_t at) {
+  double seconds = 0;
+  char found = '\0';
+  for (const char letter : {'P', 'X', 'U'}) {
+    // The first one is the time; a second one is left over and reported as such.
+    if (!words_.has(letter) || found != '\0') continue;
+    found = letter;
+    words_.use(letter);
+    seconds = words_.value(letter);
+    if (letter != 'P') continue;
+    if (const Fault fault = words_.dwell(longest_dwell, seconds)) return fault;
+  }
+  if (found == '\0') return {AlarmNumber::missing_word, at, "needs P, X or U"};
+  if (seconds < 0 || seconds > longest_dwell) return {AlarmNumber::value_range, words_.offset(found)};
+  output_.push(CommandKind::dwell).dwell_seconds = seconds;
+  return {};
+}
+
+Fault Positioning::check_machine_coordinates(std::uint16_t at) const {
+  if (state_.modal.transformation == Transformation::rtcp) return {AlarmNumber::machine_coordinates_rtcp, at};
+  return output_.refuse_in_compensation(at);
+}
+
+Fault Positioning::return_to_reference(std::uint16_t at) {
+  if (const Fault fault = check_machine_coordinates(at)) return fault;
+  return return_to(at, environment_.reference_position());
+}
+
+Fault Positioning::return_to_numbered_reference(std::uint16_t at) {
+  if (const Fault fault = check_machine_coordinates(at)) return fault;
+  std::uint32_t number = 2;
+  if (words_.has('P')) {
+    if (const Fault fault = words_.whole_number('P', 2, 4, number)) return fault;
+  }
+  const auto reference = environment_.numbered_reference(static_cast<std::uint8_t>(number));
+  if (!reference) return {AlarmNumber::reference_undefined, words_.has('P') ? words_.offset('P') : at};
+  return return_to(at, *reference);
+}
+
+Fault Positioning::return_to(std::uint16_t at, const AxisValues& reference) {
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  const AxisValues over = programmed_target(axes);
+  if (const Fault fault = output_.move_straight({CommandKind::rapid}, over)) return fault;
+  state_.change_settings().intermediate = over;
+  AxisValues target = state_.position;
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) != 0) target[axis] = absolute_target(axis, reference[axis], target[axis]);
+  }
+  return output_.move_straight_in_command_frame(CommandKind::rapid, target);
+}
+
+Fault Positioning::return_from_reference(std::uint16_t at) {
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  if (!state_.settings().intermediate) return {AlarmNumber::intermediate_missing, at};
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  AxisValues over = state_.program_position;
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) != 0) over[axis] = (*state_.settings().intermediate)[axis];
+  }
+  if (const Fault fault = output_.move_straight({CommandKind::rapid}, over)) return fault;
+  return output_.move_straight({CommandKind::rapid}, programmed_target(axes));
+}
+
+Fault Positioning::move_in_machine_coordinates(std::uint16_t at) {
+  if (state_.modal.transformation == Transformation::rtcp) return {AlarmNumber::machine_coordinates_rtcp, at};
+  if (state_.modal.motion > 1) return {AlarmNumber::machine_coordinates_motion, at};
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  AxisValues target = state_.position;
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) != 0) target[axis] = absolute_target(axis, words_.axis(axis), target[axis]);
+  }
+  if (state_.modal.motion == 1) {
+    if (const Fault fault = check_feed(at)) return fault;
+  }
+  return output_.move_straight_in_command_frame(
+      state_.modal.motion == 1 ? CommandKind::line : CommandKind::rapid, target);
+}
+
+// Every axis named arrives from its own side, so that its backlash is taken up the same way each time.
+Fault Positioning::approach_from_one_side(std::uint16_t at) {
+  if (const Fault fault = check_machine_coordinates(at)) return fault;
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  const AxisValues target = state_.command_from_program(programmed_target(axes));
+  const AxisValues last_move = environment_.approach();
+  AxisValues before = target;
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) != 0) before[axis] -= last_move[axis];
+  }
+  if (const Fault fault = output_.move_straight_in_command_frame(CommandKind::rapid, before)) return fault;
+  return output_.move_straight_in_command_frame(CommandKind::rapid, target);
+}
+
+Fault Positioning::move_until_skip(std::uint16_t at) {
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  std::uint32_t input = 1;
+  if (words_.has('L')) {
+    if (const Fault fault = words_.whole_number('L', 1, highest_skip_input, input)) return fault;
+  }
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  if (const Fault fault = check_feed(at)) return fault;
+  const std::uint32_t sequence = output_.sequence();
+  StraightMove move{CommandKind::skip};
+  move.number = input;
+  const Fault fault = output_.move_straight(move, programmed_target(axes));
+  if (fault || sequence == output_.sequence()) return fault;  // nothing to wait for without a move
+  state_.needs_position = true;
+  return {};
+}
+
+}  // namespace trunnion::language

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// Macro variables: the values behind #n, in the levels of calls.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "language/alarms.hpp"
+
+namespace trunnion::language {
+
+/// A number, or nothing: a variable that was never written is vacant.
+struct Value {
+  double number = 0;  ///< 0 when not given
+  bool given = false;
+  static constexpr Value of(double number) { return {number, true}; }
+  bool operator==(const Value&) const = default;
+};
+
+/// Which variables there are. Where Fanuc and HNC-8 use a number differently, the choice is made here.
+enum class VariableKind : std::uint8_t {
+  local,
+  common,
+  length_wear,
+  length,
+  radius_wear,
+  radius,
+  alarm,
+  time_milliseconds,
+  time_hours,
+  message,
+  cycle,
+  date,
+  time_of_day,
+  modal,
+  block_end,
+  machine_position,
+  work_position,
+  skip_position,
+  active_length,
+  work_offset,
+  extended_work_offset,
+  kept,
+  user,
+};
+
+struct VariableRange {
+  std::uint32_t first;
+  std::uint32_t last;
+  VariableKind kind;
+  bool writable;
+  const char* meaning;
+};
+
+inline constexpr std::array variable_ranges = {
+    VariableRange{0, 49, VariableKind::local, true,
+                  "local to a macro or cycle; M98 keeps those of its caller"},
+    VariableRange{50, 199, VariableKind::common, true, "common to all programs, forgotten at power-off"},
+    VariableRange{500, 999, VariableKind::kept, true, "common to all programs, kept"},
+    VariableRange{2001, 2200, VariableKind::length_wear, true, "tool length wear of tool 1 to 200, mm"},
+    VariableRange{2201, 2400, VariableKind::length, true, "tool length of tool 1 to 200, mm"},
+    VariableRange{2401, 2600, VariableKind::radius_wear, true, "tool radius wear of tool 1 to 200, mm"},
+    VariableRange{2601, 2800, VariableKind::radius, true, "tool radius of tool 1 to 200, mm"},
+    VariableRange{3000, 3000, VariableKind::alarm, true,
+                  "writing stops the program with the alarm and its comment"},
+    VariableRange{3001, 3001, VariableKind::time_milliseconds, true, "timer, ms"},
+    VariableRange{3002, 3002, VariableKind::time_hours, true, "timer, h"},
+    VariableRange{3006, 3006, VariableKind::message, true, "writing stops as M0 does and shows the comment"},
+    VariableRange{3011, 3011, VariableKind::date, false, "date as year month day: 20250131"},
+    VariableRange{3012, 3012, VariableKind::time_of_day, false, "time as hours minutes seconds: 235959"},
+    VariableRange{
+        3100, 3100, VariableKind::cycle, true,
+        "writing calls a cycle of another service: 9960 begins it, 0 when its part is done; reads 1 = call "
+        "the part O99601, 0 = finished"},
+    VariableRange{4001, 4130, VariableKind::modal, false, "modal codes and words of the blocks before"},
+    VariableRange{5001, 5009, VariableKind::block_end, false,
+                  "end of the block before, program coordinates, X Y Z A B C U V W"},
+    VariableRange{5021, 5029, VariableKind::machine_position, false, "position, machine coordinates"},
+    VariableRange{5041, 5049, VariableKind::work_position, false, "position, workpiece coordinates"},
+    VariableRange{5061, 5069, VariableKind::skip_position, false,
+                  "where the newest G31 stopped, workpiece coordinates; kept"},
+    VariableRange{5081, 5089, VariableKind::active_length, false, "active tool length by axis: 5083 for Z"},
+    VariableRange{5221, 5329, VariableKind::work_offset, true,
+                  "work offsets: 5221 X of G54, 5241 of G55 .. 5321 of G59"},
+    VariableRange{7001, 7949, VariableKind::extended_work_offset, true,
+                  "work offsets: 7001 X of G54.1 P1, 7021 of P2 .. 7941 of P48"},
+    VariableRange{50000, 54999, VariableKind::user, true, "common to all programs, kept"},
+};
+
+/// Whether a variable is the control's and not a place to store something.
+constexpr bool is_system_variable(double number) { return number >= 1000 && number < 50000; }
+
+/// What outlives a program. Its user takes it out when a program ends and hands it to the next; a program
+/// that is interpreted again needs it as it was at that program's start.
+struct VariableStore {
+  std::array<Value, 150> common{};  ///< #50..#199
+  std::array<Value, 500> kept{};    ///< #500..#999
+  std::array<Value, 9> skip{};      ///< #5061..#5069, mm and degrees whatever the units of the program
+  std::array<Value, 5000> user{};   ///< #50000..#54999
+  bool operator==(const VariableStore&) const = default;
+
+  /// visit(number of the first, values) for every range.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit(50u, self.common), visit(500u, self.kept), visit(5061u, self.skip), visit(50000u, self.user);
+  }
+};
+
+inline constexpr std::uint32_t local_variables = 50;
+inline constexpr std::size_t variable_levels = 9;
+
+/// What a program could read at one moment, but for system variables.
+struct VariableImage {
+  VariableStore store;
+  std::array<std::array<Value, local_variables>, variable_levels> locals{};
+  std::size_t level = 0;
+  std::uint64_t system_reads = 0;  ///< how often the program had read one since its start
+};
+
+/// The letters of a macro call as the variables they become.
+struct Arguments {
+  std::array<Value, local_variables> values{};
+  bool absolute = true;  ///< G90 at the call
+
+  void clear() {
+    values.fill({});
+    absolute = true;
+  }
+};
+
+/// System variables: the state of the control.
+class SystemVariables {
+ public:
+  virtual ~SystemVariables() = default;
+  /// `index` counts from the first of `range`.
+  virtual AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const = 0;
+  virtual AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) = 0;
+};
+
+/// Everything an expression can name. No allocation.
+class Variables {
+ public:
+  static constexpr std::size_t max_levels = variable_levels;
+
+  explicit Variables(SystemVariables& system) : system_(system) {}
+
+  /// The first level, without arguments.
+  void start(const VariableStore& store);
+  /// A level of its own for a macro or cycle; there must be less than max_levels.
+  void enter(const Arguments& arguments);
+  /// The level begins again with its arguments: the next repetition.
+  void repeat() { levels_[level_].values = levels_[level_].arguments.values; }
+  /// Back to the caller's.
+  void leave() { --level_; }
+
+  /// The number is whole, from 0.
+  AlarmNumber read(double number, Value& value) const {
+    if (number < local_variables) {
+      value = levels_[level_].values[static_cast<std::size_t>(number)];
+      return AlarmNumber::none;
+    }
+    return read_common(number, value);
+  }
+  AlarmNumber write(double number, Value value);
+
+  /// AR[#n]: 0 when the call did not give local variable n, else 90 or 91 as G90 or G91 was active then.
+  AlarmNumber argument(double number, Value& value) const;
+
+  /// Of each axis, 0 when no skip move has ended yet.
+  std::array<double, 9> skip_position() const;
+  void set_skip_position(const std::array<double, 9>& position);
+
+  const VariableStore& store() const { return store_; }
+  void copy_to(VariableImage& image) const;
+  /// False also when a system variable was read since.
+  bool same_as(const VariableImage& image) const;
+  /// Of the innermost level.
+  const std::array<Value, local_variables>& locals() const { return levels_[level_].values; }
+
+ private:
+  struct Level {
+    std::array<Value, local_variables> values{};
+    Arguments arguments;
+  };
+  AlarmNumber read_common(double number, Value& value) const;
+  /// Where a variable of the store is, or nullptr.
+  const Value* stored(double number) const;
+
+  SystemVariables& system_;
+  VariableStore store_;
+  std::array<Level, max_levels> levels_{};
+  std::size_t level_ = 0;
+  mutable std::uint64_t system_reads_ = 0;
+};
+
+}  // namespace trunnion::language

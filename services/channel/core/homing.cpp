@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "homing.hpp"
+
+#include "canonical/axes.hpp"
+#include "machine/parameter_constants.hpp"
+
+namespace trunnion::channel {
+
+bool Homing::needed(std::uint16_t axis, const machine::Parameters* parameters) const {
+  return !referenced(axis) ||
+         (parameters != nullptr && parameters->integer(parameter::homing_direction, axis) != 0);
+}
+
+void Homing::advance(StreamLink& link, bool moves) {
+  if (!search_) return;
+  if (link.homing()) {
+    if (!search_->demanded || moves) return;
+    link.leave();
+    search_->demanded = false;
+  } else if (search_->demanded || search_->ended || link.drive_mode() == DriveMode::OFF) {
+    search_.reset();
+  } else if (moves) {
+    link.request_homing(search_->axis);
+    search_->demanded = true;
+  }
+}
+
+void Homing::end(StreamLink& link, bool moves) {
+  if (!search_) return;
+  if (search_->demanded && link.homing()) link.leave();
+  search_->demanded = false, search_->ended = true;
+  advance(link, moves);
+}
+
+std::string Homing::detail(const machine::ChannelAxes& axes, bool moves) const {
+  std::string name;
+  for (std::size_t i = 0; i < axes.number.size(); ++i)
+    if (axes.number[i] == search_->axis) name = canonical::axis_letters[axes.index[i]];
+  if (search_->ended) return "axis " + name + " brakes, its homing has ended";
+  return "axis " + name + " searches its reference" + (moves ? "" : ": the feed override is 0 %");
+}
+
+}  // namespace trunnion::channel

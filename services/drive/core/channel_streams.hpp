@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// The streams that feed the drive, one of each channel: which of them take part, and how far the setpoints at
+// hand reach. Spindles follow them: their setpoints come with those of the axes and are passed, interpolated
+// and braked along with them, so a spindle keeps its place to the axes whatever the drive does.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "contracts/types.hpp"
+#include "drive_memory.hpp"
+#include "gantry_slaves.hpp"
+#include "machine/axes.hpp"
+#include "spindles.hpp"
+#include "stream/batch_window.hpp"
+
+namespace trunnion::drive {
+
+struct ChannelStream {
+  stream::BatchWindow<idl::stream::AxisBatch> window;
+  bool active = false;
+  bool ending = false;     ///< its last setpoints are handed over and not all executed
+  bool prefilled = false;  ///< enough has arrived to begin
+  bool begun = false;      ///< an epoch was started in this process
+  bool resume = false;     ///< continues, once every channel that was stopped does
+  std::uint32_t epoch = 0, request = 0;
+  std::uint64_t start = 0;
+  idl::stream::ChannelSnapshot snapshot;
+  std::vector<idl::stream::StageState> states;
+  std::vector<std::uint16_t> axes;  ///< of the batches, and the column of each
+  std::vector<int> columns;
+  int spindle = -1;        ///< that follows the channel's batches
+  bool skip_move = false;  ///< of the newest batch of which a setpoint was passed
+
+  /// Setpoints of the axes of the batch at `cycle`; null when they are not here.
+  const double* row(std::uint64_t cycle) const;
+  /// Revolutions of the spindle at `cycle`; null when none follows.
+  const double* spindle_row(std::uint64_t cycle) const;
+  /// The epoch of a START or NEW_EPOCH is the one that comes next.
+  bool expects(const idl::stream::StreamRequest& request) const;
+  void release_spindle(Spindles& spindles);
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("window", self.window), visit("active", self.active), visit("ending", self.ending);
+    visit("prefilled", self.prefilled), visit("begun", self.begun), visit("epoch", self.epoch);
+    visit("request", self.request), visit("start", self.start), visit("snapshot", self.snapshot);
+    visit("states", self.states), visit("axes", self.axes), visit("columns", self.columns);
+    visit("spindle", self.spindle), visit("skip_move", self.skip_move);
+    visit("resume", self.resume);
+  }
+};
+
+/// How far the setpoints at hand reach.
+struct StreamSupply {
+  std::uint64_t cycles = 0;  ///< from the next one on, for every channel that owes one
+  bool ends = false;         ///< nothing is owed after them
+};
+
+/// `next` is the cycle that is handed over next.
+class ChannelStreams {
+ public:
+  /// Not cyclic.
+  void add(std::uint16_t channel) { channels_[channel]; }
+  /// Null when the machine has no such channel.
+  ChannelStream* find(std::uint16_t channel);
+  const ChannelStream* find(std::uint16_t channel) const;
+
+  /// A batch of the gantry stage; swapped away. False when a replica differs from what is here.
+  bool put(idl::stream::AxisBatch& batch);
+
+  std::size_t active() const;
+  bool any_active() const;
+  /// A channel begins with the cycle `next`.
+  bool any_starts(std::uint64_t next) const;
+  bool any_skips() const;
+  /// Every channel that was stopped is to continue. The start of one channel moves no axis of another: who
+  /// stands there has a key of his own.
+  bool resume_demanded() const;
+  void forget_resumes();
+  /// Channels whose start has come begin when `prefilled`: there are enough setpoints. False when none has
+  /// begun.
+  bool let_begin(std::uint64_t next, bool prefilled);
+
+  /// Looks a few `lead` ahead.
+  StreamSupply supply(std::uint64_t next, std::uint64_t lead) const;
+  /// Setpoints at `cycle` in the columns of `axes`; those of axes that no channel moves then stay.
+  void setpoints(std::uint64_t cycle, const std::vector<machine::AxisInfo>& axes, const GantrySlaves& slaves,
+                 std::vector<double>& out);
+  /// Before `next` is passed: spindles take its setpoint. Then they lead by a share `phase` of the one
+  /// behind.
+  void couple_spindles(std::uint64_t next, const std::vector<SpindleStatus>& status, Spindles& spindles);
+  void lead_spindles(std::uint64_t next, double phase, Spindles& spindles) const;
+  /// The cycle `next` is handed over: batches that end with it are forgotten, and channels end with theirs.
+  void pass(std::uint64_t next, Spindles& spindles);
+  /// Every cycle that was handed over is executed.
+  void executed();
+
+  void restore(const Memory& memory);
+  void keep(Memory& memory) const;
+  void fill(std::uint64_t next, idl::stream::Feedback& out) const;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("channels", self.channels_);
+  }
+
+ private:
+  std::map<std::uint16_t, ChannelStream> channels_;
+};
+
+}  // namespace trunnion::drive

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// The retained state of the PLC: plain data, so that it can be in a mapped file and survive the process.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "contracts/types.hpp"
+#include "plc/machine/machine.hpp"
+#include "plc/translation.hpp"
+
+namespace trunnion::plc {
+
+using idl::channel::AuxiliaryKind;
+
+inline constexpr std::size_t register_count = 512, block_register_count = 3360;
+inline constexpr std::size_t channel_count = 8, spindle_count = 8;
+
+/// The register image; idl/plc.idl defines the areas, libs/plc/plc/machine/register_area.hpp their sizes.
+struct Registers {
+  std::array<std::uint8_t, register_count> x{}, y{}, r{}, k{};
+  std::array<std::uint16_t, block_register_count> f{}, g{};
+  std::array<std::uint16_t, register_count> w{};
+  std::array<std::int32_t, register_count> b{}, d{}, t{}, c{}, p{};
+  bool operator==(const Registers&) const = default;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("x", self.x), visit("y", self.y), visit("r", self.r), visit("f", self.f), visit("g", self.g);
+    visit("b", self.b), visit("w", self.w), visit("d", self.d), visit("t", self.t), visit("c", self.c);
+    visit("k", self.k), visit("p", self.p);
+  }
+};
+
+enum class HandshakeState : std::uint32_t { none, waiting, strobe, done };
+
+/// A pending M, S or T of one channel.
+struct Handshake {
+  HandshakeState state = HandshakeState::none;
+  std::uint32_t number = 0;
+  AuxiliaryKind kind = AuxiliaryKind::NO_AUXILIARY;
+  std::uint32_t code = 0;
+  double value = 0;
+  std::uint64_t cycle = 0;
+  std::uint32_t failed = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("state", self.state), visit("number", self.number), visit("kind", self.kind);
+    visit("code", self.code), visit("value", self.value), visit("cycle", self.cycle);
+    visit("failed", self.failed);
+  }
+};
+
+using st::program_cells;
+
+/// The variables of the programs and the fault that has stopped them. All zero without programs.
+struct ProgramVariables {
+  struct Fault {
+    std::uint32_t kind = 0;  ///< st::FaultKind
+    std::uint32_t task = 0, instruction = 0;
+    std::uint32_t reserved = 0;  // no field
+    std::int64_t value = 0, low = 0, high = 0;
+    bool operator==(const Fault&) const = default;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("kind", self.kind), visit("task", self.task), visit("instruction", self.instruction);
+      visit("value", self.value), visit("low", self.low), visit("high", self.high);
+    }
+  };
+  std::uint64_t layout = 0;    ///< identifies names, types and addresses
+  std::uint64_t identity = 0;  ///< of the code
+  Fault fault;
+  std::uint32_t cells = 0;  ///< of `values` that are used
+  std::uint32_t reserved = 0;
+  st::Progress main;  ///< of the main task, which is spread over scans
+  std::array<std::uint64_t, program_cells> values{};
+
+  /// Only the cells that are used: what an assignment copies besides counts for nothing.
+  void assign(const ProgramVariables& other) {
+    std::memcpy(static_cast<void*>(this), &other,
+                offsetof(ProgramVariables, values) + other.cells * sizeof(std::uint64_t));
+  }
+  bool operator==(const ProgramVariables& other) const {
+    return layout == other.layout && identity == other.identity && fault == other.fault &&
+           cells == other.cells && main == other.main &&
+           std::equal(values.begin(), values.begin() + cells, other.values.begin());
+  }
+};
+
+inline constexpr std::size_t most_forces = 64;
+
+/// A register, a bit of one or an elementary variable that keeps a value whatever the programs write.
+struct Force {
+  std::uint32_t cell = 0;  ///< of the memory of the programs: below st::image_cells a register
+  std::int32_t bit = -1;   ///< of a register
+  std::uint64_t value = 0;
+  std::uint32_t permanent = 0;  ///< 1: also after a new start of the cluster
+  std::uint32_t reserved = 0;   // no field
+  bool operator==(const Force&) const = default;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("cell", self.cell), visit("bit", self.bit), visit("value", self.value);
+    visit("permanent", self.permanent);
+  }
+};
+
+/// In the order in which they were made; one place is forced once.
+struct Forces {
+  std::array<Force, most_forces> values{};
+  std::uint32_t count = 0;
+  std::uint32_t reserved = 0;  // no field
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("values", self.values), visit("count", self.count);
+  }
+};
+
+struct Memory {
+  Registers registers;
+  std::array<Handshake, channel_count> handshakes{};
+  std::uint64_t now_us = 0;                             ///< PLC time: how long it has run, over all starts
+  std::uint64_t scans = 0;                              ///< whole milliseconds of it that were scanned
+  std::uint64_t tick = 0;                               ///< drive tick that belongs to now_us; 0: none yet
+  std::array<double, spindle_count> spindle_command{};  ///< 1/min, signed
+  std::array<std::uint64_t, spindle_count>
+      spindle_since{};  ///< PLC time in ms of the last change of the command
+  Forces forces;
+  /// The last member: files without programs end before it. No field, the service writes the cells that
+  /// are used: program.
+  ProgramVariables program;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("registers", self.registers), visit("handshakes", self.handshakes);
+    visit("now_us", self.now_us), visit("scans", self.scans), visit("tick", self.tick);
+    visit("spindle_command", self.spindle_command), visit("spindle_since", self.spindle_since);
+    visit("forces", self.forces);
+  }
+};
+static_assert(std::is_trivially_copyable_v<Memory>);
+
+/// The received state of the machine, which is not retained: a restarted process receives it again.
+struct View {
+  struct Channel {
+    bool seen = false, active = false;
+    std::uint32_t resets = 0;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("seen", self.seen), visit("active", self.active), visit("resets", self.resets);
+    }
+  };
+  struct Press {
+    std::uint64_t client = 0, number = 0;
+    bool operator==(const Press&) const = default;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("client", self.client), visit("number", self.number);
+    }
+  };
+  std::array<Channel, channel_count> channels{};
+  std::array<Press, 8>
+      presses{};  ///< of the emergency stop that were taken, the newest first; number 0: none
+  std::array<double, spindle_count> spindle_actual{};     ///< 1/min
+  std::uint32_t spindles_received = 0;                    ///< entries of spindle_actual
+  std::array<bool, spindle_count> orients{}, oriented{};  ///< an orientation is demanded; the drive holds it
+  std::array<std::uint64_t, spindle_count> orient_since{};  ///< PLC time in ms at which it was demanded
+  std::uint64_t executed = 0;                               ///< cycles of the stream
+  bool drive_seen = false;
+  bool stopped_waiting = false;  ///< waiting for the drive's confirmation of a standstill
+  bool changed = true;           ///< an input, since the image was stable
+  bool press_acted =
+      true;  ///< the programs have stopped the machine since the newest press, or it was released
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("channels", self.channels), visit("presses", self.presses);
+    visit("spindle_actual", self.spindle_actual);
+    visit("orients", self.orients), visit("oriented", self.oriented);
+    visit("orient_since", self.orient_since);
+    visit("spindles_received", self.spindles_received), visit("executed", self.executed);
+    visit("drive_seen", self.drive_seen), visit("stopped_waiting", self.stopped_waiting);
+    visit("changed", self.changed), visit("press_acted", self.press_acted);
+  }
+};
+
+/// Everything that determines the next step of the PLC, besides its programs and parameters.
+struct PlcState {
+  Memory memory;
+  View view;
+
+  /// For libs/cluster/snapshot, as in the structs above.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("memory", self.memory), visit("view", self.view);
+  }
+};
+static_assert(std::is_trivially_copyable_v<PlcState>);
+static_assert(sizeof(PlcState) <= 131072, "Round.start of idl/plc.idl has it");
+
+}  // namespace trunnion::plc
