@@ -126,7 +126,7 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
       break;
     case StreamRequestKind::LEAVE:
       leave(channel);
-      if (mode_ == Mode::HOMING && request.channel == search_.channel()) search_.abort();
+      if (mode_ == Mode::HOMING && request.channel == homing_.channel()) homing_.abort();
       break;
     case StreamRequestKind::HOME:
       home(request.channel, request.axis);
@@ -158,7 +158,7 @@ void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emerge
   } else if (mode_ == Mode::HELD || (mode_ == Mode::FOLLOWING && !any_active())) {
     mode_ = Mode::OFF;
   } else if (mode_ == Mode::HOMING) {
-    search_.abort();
+    homing_.abort();
   } else if (mode_ != Mode::OFF && mode_ != Mode::BRAKING) {
     begin_braking();
   }

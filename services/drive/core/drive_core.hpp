@@ -20,7 +20,7 @@
 #include "drive_memory.hpp"
 #include "executed_rows.hpp"
 #include "gantry_slaves.hpp"
-#include "homing_search.hpp"
+#include "homing_group.hpp"
 #include "machine/axes.hpp"
 #include "path_rate.hpp"
 #include "probe_watch.hpp"
@@ -122,7 +122,7 @@ class DriveCore {
     PathRate::fields(self.rate_, visit);
     visit("off_path", self.off_path_), visit("reserve", self.reserve_);
     visit("settle", self.settle_);
-    HomingSearch::fields(self.search_, visit);
+    HomingGroup::fields(self.homing_, visit);
     ReturnMove::fields(self.return_, visit);
     Spindles::fields(self.spindles_, visit);
     AxisSupervision::fields(self.supervision_, visit);
@@ -199,7 +199,7 @@ class DriveCore {
   bool resumed_ = false;
   std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits
   std::uint32_t settle_ = 0;   // periods until the servos are at rest, in virtual time
-  HomingSearch search_;
+  HomingGroup homing_;
   GantrySlaves slaves_;
   Mode after_alignment_ = Mode::OFF;  // while slaves are aligned: what follows
   ReturnMove return_;

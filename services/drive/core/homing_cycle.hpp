@@ -10,7 +10,7 @@
 
 namespace trunnion::drive {
 
-class Homing {
+class HomingCycle {
  public:
   struct Settings {
     double direction = 1;           ///< 1 or -1: where the switch is searched

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search of an axis and of the slaves that move with it: nothing is racked, and each finds its own
+// The homing of an axis and of the slaves that move with it: nothing is racked, and each finds its own
 // reference.
 #pragma once
 
@@ -12,13 +12,13 @@
 
 #include "axis_limits.hpp"
 #include "gantry_slaves.hpp"
-#include "homing.hpp"
+#include "homing_cycle.hpp"
 #include "machine/axes.hpp"
 
 namespace trunnion::drive {
 
 /// Axes are named by their columns.
-class HomingSearch {
+class HomingGroup {
  public:
   struct Member {
     std::size_t column = 0;
@@ -50,7 +50,7 @@ class HomingSearch {
   /// Brakes and ends as failed.
   void abort() { homing_.abort(); }
   /// One period of `period` s: the setpoints of its axes in `command`. Cyclic.
-  Homing::State step(const std::vector<AxisLimits>& limits, const std::vector<AxisStatus>& status,
+  HomingCycle::State step(const std::vector<AxisLimits>& limits, const std::vector<AxisStatus>& status,
                      double period, std::vector<double>& command);
   /// Whose reference is found or needs no search; until end().
   const std::vector<Member>& members() const { return members_; }
@@ -74,9 +74,9 @@ class HomingSearch {
   }
 
  private:
-  Homing::Signals signals(const std::vector<AxisLimits>& limits, const std::vector<AxisStatus>& status);
+  HomingCycle::Signals signals(const std::vector<AxisLimits>& limits, const std::vector<AxisStatus>& status);
 
-  Homing homing_;
+  HomingCycle homing_;
   std::size_t column_ = 0;
   std::uint16_t channel_ = 0;    // that has demanded it
   std::vector<Member> members_;  // the axis and the slaves that move with it

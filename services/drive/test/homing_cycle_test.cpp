@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "homing.hpp"
+#include "homing_cycle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,14 +36,14 @@ struct Axis {
   double setpoint = 0, velocity = 0;  // the newest
 };
 
-Homing::Settings settings() {
-  Homing::Settings s;
+HomingCycle::Settings settings() {
+  HomingCycle::Settings s;
   s.direction = 1, s.search = 20, s.creep = 1, s.acceleration = 1000, s.travel = 100, s.reference = 50;
   return s;
 }
 
-Homing::State run(Homing& homing, Axis& axis, int most = 100000) {
-  while (homing.state() == Homing::State::moving && most-- > 0) {
+HomingCycle::State run(HomingCycle& homing, Axis& axis, int most = 100000) {
+  while (homing.state() == HomingCycle::State::moving && most-- > 0) {
     const double setpoint = homing.step(axis.status, 0.001);
     const double velocity = (setpoint - axis.setpoint) / 0.001;
     EXPECT_LE(std::abs(velocity - axis.velocity), 1 + 1e-9) << "1000 mm/s2 for 1 ms";
@@ -54,62 +54,62 @@ Homing::State run(Homing& homing, Axis& axis, int most = 100000) {
   return homing.state();
 }
 
-TEST(Homing, TakesTheEdgeAtTheSlowSpeedAlsoBehindAQueueOfRows) {
+TEST(HomingCycle, TakesTheEdgeAtTheSlowSpeedAlsoBehindAQueueOfRows) {
   for (const std::size_t delay : {0u, 20u}) {
     Axis axis(12.3, delay);
-    Homing homing;
+    HomingCycle homing;
     homing.start(settings(), 0);
-    ASSERT_EQ(run(homing, axis), Homing::State::done);
+    ASSERT_EQ(run(homing, axis), HomingCycle::State::done);
     // The edge is latched within one period at 1 mm/s: 0.001 mm.
     EXPECT_NEAR(homing.shift(), 50 - 12.3, 0.001 + 1e-9);
     EXPECT_NEAR(axis.fastest, 20, 1e-6);
   }
 }
 
-TEST(Homing, LeavesTheSwitchFirstWhenItIsOnAtTheStart) {
+TEST(HomingCycle, LeavesTheSwitchFirstWhenItIsOnAtTheStart) {
   Axis axis(12.3, 5);
   axis.status.home_switch = true;
   axis.status.position = axis.setpoint = 30;
   std::fill(axis.queue.begin(), axis.queue.end(), 30.0);
-  Homing homing;
+  HomingCycle homing;
   homing.start(settings(), 30);
-  ASSERT_EQ(run(homing, axis), Homing::State::done);
+  ASSERT_EQ(run(homing, axis), HomingCycle::State::done);
   EXPECT_NEAR(homing.shift(), 50 - 12.3, 0.001 + 1e-9);
 }
 
-TEST(Homing, GivesUpWhenTheSwitchDoesNotComeWithinTheTravel) {
+TEST(HomingCycle, GivesUpWhenTheSwitchDoesNotComeWithinTheTravel) {
   Axis axis(1000, 5);
-  Homing homing;
+  HomingCycle homing;
   homing.start(settings(), 0);
-  EXPECT_EQ(run(homing, axis), Homing::State::failed);
-  EXPECT_EQ(homing.failure(), Homing::Failure::travel);
+  EXPECT_EQ(run(homing, axis), HomingCycle::State::failed);
+  EXPECT_EQ(homing.failure(), HomingCycle::Failure::travel);
   EXPECT_LT(axis.status.position, 101) << "100 mm and the way it takes to brake from 20 mm/s";
 }
 
 // The switch comes within 0.7 s and does not go off again: what is left of 2 s is creeping, at 1 mm/s.
-TEST(Homing, GivesUpAfterTheLongestTime) {
+TEST(HomingCycle, GivesUpAfterTheLongestTime) {
   Axis axis(12.3, 5);
-  Homing homing;
+  HomingCycle homing;
   auto limited = settings();
   limited.seconds = 2;
   homing.start(limited, 0);
   run(homing, axis, 700);
   ASSERT_TRUE(axis.status.home_switch);
   axis.switch_edge = -1000;
-  EXPECT_EQ(run(homing, axis, 1310), Homing::State::failed) << "in 2 s and what it takes to brake";
-  EXPECT_EQ(homing.failure(), Homing::Failure::time);
+  EXPECT_EQ(run(homing, axis, 1310), HomingCycle::State::failed) << "in 2 s and what it takes to brake";
+  EXPECT_EQ(homing.failure(), HomingCycle::Failure::time);
   EXPECT_NEAR(axis.status.position, 12.3 - 1.3, 0.5);
 }
 
-TEST(Homing, AnAbortBrakesAndEndsWithoutAReference) {
+TEST(HomingCycle, AnAbortBrakesAndEndsWithoutAReference) {
   Axis axis(12.3, 5);
-  Homing homing;
+  HomingCycle homing;
   homing.start(settings(), 0);
   run(homing, axis, 200);
   homing.abort();
   const double at = axis.status.position;
-  EXPECT_EQ(run(homing, axis), Homing::State::failed);
-  EXPECT_EQ(homing.failure(), Homing::Failure::ended);
+  EXPECT_EQ(run(homing, axis), HomingCycle::State::failed);
+  EXPECT_EQ(homing.failure(), HomingCycle::Failure::ended);
   EXPECT_NEAR(axis.status.position, at + 5 * 0.02 + 0.2, 0.03) << "v2 / 2a = 0.2 mm behind five rows";
 }
 

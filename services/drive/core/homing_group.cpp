@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "homing_search.hpp"
+#include "homing_group.hpp"
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ double search_travel(const machine::AxisInfo& axis, const AxisLimits& limits) {
 
 }  // namespace
 
-void HomingSearch::gather(std::uint16_t channel, std::size_t column, GantrySlaves& slaves,
+void HomingGroup::gather(std::uint16_t channel, std::size_t column, GantrySlaves& slaves,
                           const std::vector<double>& command) {
   column_ = column;
   channel_ = channel;
@@ -34,9 +34,9 @@ void HomingSearch::gather(std::uint16_t channel, std::size_t column, GantrySlave
   }
 }
 
-HomingSearch::Start HomingSearch::start(const machine::AxisInfo& axis, const std::vector<AxisLimits>& limits,
+HomingGroup::Start HomingGroup::start(const machine::AxisInfo& axis, const std::vector<AxisLimits>& limits,
                                         const std::vector<double>& command) {
-  Homing::Settings settings;
+  HomingCycle::Settings settings;
   settings.direction = 0;
   const auto& master = limits[column_];
   settings.search = std::min(master.homing_search, master.velocity);
@@ -64,9 +64,9 @@ HomingSearch::Start HomingSearch::start(const machine::AxisInfo& axis, const std
   return Start::moves;
 }
 
-Homing::Signals HomingSearch::signals(const std::vector<AxisLimits>& limits,
+HomingCycle::Signals HomingGroup::signals(const std::vector<AxisLimits>& limits,
                                       const std::vector<AxisStatus>& status) {
-  Homing::Signals all{false, true, true};
+  HomingCycle::Signals all{false, true, true};
   for (auto& member : members_) {
     const auto& l = limits[member.column];
     const auto& axis = status[member.column];
@@ -87,7 +87,7 @@ Homing::Signals HomingSearch::signals(const std::vector<AxisLimits>& limits,
   return all;
 }
 
-Homing::State HomingSearch::step(const std::vector<AxisLimits>& limits, const std::vector<AxisStatus>& status,
+HomingCycle::State HomingGroup::step(const std::vector<AxisLimits>& limits, const std::vector<AxisStatus>& status,
                                  double period, std::vector<double>& command) {
   const double position = homing_.step_together(signals(limits, status), period);
   const double moved = position - members_.front().from;
@@ -101,7 +101,7 @@ Homing::State HomingSearch::step(const std::vector<AxisLimits>& limits, const st
   return homing_.state();
 }
 
-std::optional<double> HomingSearch::shift(const Member& member, const AxisLimits& limits,
+std::optional<double> HomingGroup::shift(const Member& member, const AxisLimits& limits,
                                           const AxisStatus& status, double command) {
   if (limits.homing_direction != 0)
     return limits.reference + (limits.homing_marks == 2 ? status.scale_shift : -member.latch);
@@ -110,12 +110,12 @@ std::optional<double> HomingSearch::shift(const Member& member, const AxisLimits
   return limits.reference - command;
 }
 
-std::string HomingSearch::failure(const machine::AxisInfo& axis, const AxisLimits& limits) const {
+std::string HomingGroup::failure(const machine::AxisInfo& axis, const AxisLimits& limits) const {
   const auto& settings = homing_.settings();
   const char* const unit = axis.type == machine::axis_type_linear ? "mm" : "deg";
   std::string most;
-  if (homing_.failure() == Homing::Failure::travel) most = text::quantity(settings.travel, unit);
-  if (homing_.failure() == Homing::Failure::time) most = text::quantity(settings.seconds, "s");
+  if (homing_.failure() == HomingCycle::Failure::travel) most = text::quantity(settings.travel, unit);
+  if (homing_.failure() == HomingCycle::Failure::time) most = text::quantity(settings.seconds, "s");
   if (most.empty()) return {};
   const auto who = "Axis " + axis.name + (members_.size() > 1 ? " or its slave" : "");
   const auto direction = machine::number_text(parameter::homing_direction.number(axis.number));
