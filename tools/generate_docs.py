@@ -290,7 +290,7 @@ def input_catalogue():
             *(f"  {json.dumps(r['name'] + ('_' if 'each' in r or 'count' in r else ''))}," for r in named), "]);"]
 
 
-STANDARD = "libs/plc/plc/standard"
+STANDARD = "libs/plc/plc/conformance"
 
 
 def standard_tables():
