@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "machine_tests/r_test.hpp"
+#include "machine_tests/r_test_run.hpp"
 
 #include <utility>
 
@@ -7,8 +7,8 @@ namespace trunnion::machine_tests {
 
 using identification::dynamic_less_static;
 
-RTestReport r_test(BallTest& test, double feed, std::size_t stops,
-                   const identification::RTestSettings& settings) {
+RTestReport run_r_test(BallTest& test, double feed, std::size_t stops,
+                       const identification::RTestSettings& settings) {
   RTestReport report;
   report.motion = test.run(feed, test.start());
   report.result = identification::evaluate_turn(test.set(), report.motion.there, settings);

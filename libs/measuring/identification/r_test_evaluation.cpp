@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "identification/r_test.hpp"
+#include "identification/r_test_evaluation.hpp"
 
 #include <algorithm>
 #include <cmath>

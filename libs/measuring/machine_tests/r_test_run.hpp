@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "identification/r_test.hpp"
+#include "identification/r_test_evaluation.hpp"
 #include "machine_tests/ball_test.hpp"
 
 namespace trunnion::machine_tests {
@@ -18,8 +18,8 @@ struct RTestReport {
 };
 
 /// Turns with `feed` mm/min along the circle of the ball, then stands at `stops` stops, or at none.
-RTestReport r_test(BallTest& test, double feed, std::size_t stops,
-                   const identification::RTestSettings& settings);
+RTestReport run_r_test(BallTest& test, double feed, std::size_t stops,
+                       const identification::RTestSettings& settings);
 
 struct RTestStudy {
   std::vector<double> feeds, starts;  ///< mm/min along the circle, deg
