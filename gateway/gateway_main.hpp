@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cluster_view.hpp"
+#include "cluster_side/cluster_view.hpp"
 
 namespace trunnion {
 

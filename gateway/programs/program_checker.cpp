@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program_checker.hpp"
+#include "programs/program_checker.hpp"
 
 #include <chrono>
 
 #include "collision_guard/collision_guard.hpp"
 #include "core/program_check.hpp"
-#include "stored_texts.hpp"
+#include "programs/stored_texts.hpp"
 
 namespace trunnion::gateway {
 namespace {

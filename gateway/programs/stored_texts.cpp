@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stored_texts.hpp"
+#include "programs/stored_texts.hpp"
 
 #include <chrono>
 #include <future>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measurement.hpp"
+#include "resources/measurement.hpp"
 
 #include "calibration/offered_inputs.hpp"
 #include "core/cluster_state.hpp"

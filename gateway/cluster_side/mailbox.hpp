@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "bus/bus.hpp"
+#include "cluster_side/request_lanes.hpp"
 #include "contracts/topics.hpp"
 #include "core/cluster_state.hpp"
 #include "core/operator_journal.hpp"
-#include "request_lanes.hpp"
 
 namespace trunnion::gateway {
 

@@ -7,10 +7,10 @@
 
 #include "answer.hpp"
 #include "calibration/last_calibration.hpp"
+#include "cluster_side/mailbox.hpp"
 #include "core/router.hpp"
 #include "core/worker.hpp"
 #include "machine/machine.hpp"
-#include "mailbox.hpp"
 
 namespace trunnion::gateway {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cluster_view.hpp"
+#include "cluster_side/cluster_view.hpp"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bodies.hpp"
+#include "resources/bodies.hpp"
 
 #include "core/bodies_document.hpp"
 #include "core/cluster_state.hpp"

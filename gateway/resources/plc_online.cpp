@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plc_online.hpp"
+#include "resources/plc_online.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "operating_control.hpp"
+#include "operators/operating_control.hpp"
 
 #include <utility>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program_planner.hpp"
+#include "programs/program_planner.hpp"
 
 #include <chrono>
 
 #include "channel_setup/channel_setup.hpp"
 #include "core/cluster_state.hpp"
 #include "core/program_plan.hpp"
-#include "stored_texts.hpp"
+#include "programs/stored_texts.hpp"
 
 namespace trunnion::gateway {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings.hpp"
+#include "resources/recordings.hpp"
 
 #include <chrono>
 #include <ctime>

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "answer.hpp"
+#include "cluster_side/mailbox.hpp"
 #include "core/plc_requests.hpp"
 #include "core/router.hpp"
 #include "core/worker.hpp"
-#include "mailbox.hpp"
 #include "plc/online/shown_variables.hpp"
 
 namespace trunnion::gateway {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "alarm_file.hpp"
+#include "cluster_side/alarm_file.hpp"
 
 #include <fcntl.h>
 

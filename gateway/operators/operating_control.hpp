@@ -8,9 +8,9 @@
 #include <string>
 
 #include "access/operating_right.hpp"
-#include "access_control.hpp"
 #include "answer.hpp"
 #include "core/router.hpp"
+#include "operators/access_control.hpp"
 
 namespace trunnion::gateway {
 

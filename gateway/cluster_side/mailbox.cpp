@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mailbox.hpp"
+#include "cluster_side/mailbox.hpp"
 
 #include <algorithm>
 

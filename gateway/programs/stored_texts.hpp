@@ -8,8 +8,8 @@
 #include <string>
 
 #include "answer.hpp"
+#include "cluster_side/mailbox.hpp"
 #include "language/text_source.hpp"
-#include "mailbox.hpp"
 
 namespace trunnion::gateway {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "answer.hpp"
+#include "cluster_side/mailbox.hpp"
 #include "core/worker.hpp"
-#include "mailbox.hpp"
 
 namespace trunnion::gateway {
 

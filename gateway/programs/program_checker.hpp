@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "answer.hpp"
+#include "cluster_side/mailbox.hpp"
 #include "core/worker.hpp"
-#include "mailbox.hpp"
 
 namespace trunnion::gateway {
 

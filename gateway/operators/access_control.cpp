@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "access_control.hpp"
+#include "operators/access_control.hpp"
 
 #include <algorithm>
 #include <cmath>
