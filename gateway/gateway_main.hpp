@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What the gateway's main() does, also for gateways of tests that show something else.
 #pragma once
 
 #include "cluster_side/cluster_view.hpp"

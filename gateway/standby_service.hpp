@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The gateway on standby, which `trunnion swap gateway` compares with the one that runs.
 #pragma once
 
 #include "cluster_side/cluster_view.hpp"
