@@ -54,6 +54,15 @@ Value Lowering::target(const Expression& e) {
   return value;
 }
 
+Value Lowering::referred(const Expression& e) {
+  auto value = target(e);
+  if (value.is_error()) return value;
+  auto access = writing();
+  access.reads = true;
+  note(e, value, access);
+  return check_writable(value, e.at) ? value : error();
+}
+
 void Lowering::note(const Expression& e, const Value& value, Reference access) {
   if (pou_ == nullptr || value.is_error() || unit_.is_library(pou_->declaration->at)) return;
   const auto& root = root_of(e);
