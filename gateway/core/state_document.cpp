@@ -206,7 +206,8 @@ Json StateDocument::spindles() const {
     json.push_back(
         {{"condition", bus::to_string(spindle.condition)},
          {"homed", spindle.homed},
-         {"angle", std::fmod(std::round((spindle.angle - std::floor(spindle.angle)) * 36000), 36000) / 100},
+         {"angle",
+          rounded(std::fmod(std::round((spindle.angle - std::floor(spindle.angle)) * 36000), 36000) / 100)},
          {"gear", spindle.gear},
          {"master", spindle.master}});
   return json;
