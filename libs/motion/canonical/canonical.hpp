@@ -151,11 +151,13 @@ struct Command {
   AxisValues target{};         ///< end of a move, in the frame modal.transformation says
   Arc arc{};
   double dwell_seconds = 0;
-  std::uint32_t number = 0;   ///< M, T or message number; of end: 2, 30, or 0 for the end of the text
-  double value = 0;           ///< S in 1/min, or in m/min when modal.spindle_mode says surface
+  std::uint32_t number = 0;  ///< M, T or message number; of end: 2, 30, or 0 for the end of the text
+  double value = 0;          ///< S in 1/min, or in m/min when modal.spindle_mode says surface; with has_value
+                             ///< the angle of M19, deg in [0, 360)
   Table table = Table::none;  ///< of kind table
-  bool chord = false;  ///< a piece of a smooth curve (G6.2) or of a move with tool vectors (G43.5) that
-                       ///< continues behind it: its end is no corner
+  bool chord = false;      ///< a piece of a smooth curve (G6.2) or of a move with tool vectors (G43.5) that
+                           ///< continues behind it: its end is no corner
+  bool has_value = false;  ///< of kind auxiliary: the block gives `value`
   ModalState modal{};
 };
 

@@ -20,6 +20,7 @@ constexpr double turn_worth_a_move = 1e-6;  // degrees
 constexpr std::uint32_t most_vector_pieces = 1024;
 constexpr double straight_on = 180;  // degrees: interior angle and turn of a corner together
 constexpr int first_plane = 17;      // G17
+constexpr std::uint32_t spindle_gears = 5;
 
 // An axis that the chain turns and that nothing moves would stay at zero without a word.
 void check_chain_axes(const geometry::Chain& chain, const machine::ChannelAxes& axes, std::uint16_t channel) {
@@ -161,10 +162,15 @@ void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
   auto next = std::find_if(spindles.begin(), spindles.end(),
                            [&](const auto& spindle) { return first < 0 || spindle.number == first; });
   const auto spindle = [&](auto at) {
-    return at == spindles.end()
-               ? TappingSpindle{}
-               : TappingSpindle{at->number, p.get(parameter::maximum_acceleration, at->number),
-                                p.get(parameter::maximum_speed, at->number)};
+    if (at == spindles.end()) return TappingSpindle{};
+    TappingSpindle found{at->number, p.get(parameter::maximum_acceleration, at->number),
+                         p.get(parameter::maximum_speed, at->number), false};
+    double of_gears = 0;
+    for (std::uint32_t gear = 0; gear < spindle_gears; ++gear)
+      of_gears = std::max(of_gears, p.get(parameter::gear_highest_speed, at->number, gear));
+    found.by_gears = of_gears > 0 && (found.highest_speed == 0 || of_gears < found.highest_speed);
+    if (found.by_gears) found.highest_speed = of_gears;
+    return found;
   };
   tapping_spindles_ = {};
   tapping_spindles_[0] = spindle(next);

@@ -27,6 +27,7 @@ struct TappingSpindle {
   std::optional<std::uint16_t> axis;
   double acceleration = 0;   ///< degrees/s^2
   double highest_speed = 0;  ///< 1/min, 0 = no limit
+  bool by_gears = false;     ///< it is that of the highest gear (10a985), not 10a948
 };
 
 class ChannelSetup : public language::Environment {
@@ -85,6 +86,9 @@ class ChannelSetup : public language::Environment {
   std::uint16_t axes() const override { return mask_; }
   std::uint16_t spindle_axes() const override { return spindle_mask_; }
   double highest_spindle_speed() const override { return tapping_spindles_[0].highest_speed; }
+  const char* highest_speed_parameter() const override {
+    return tapping_spindles_[0].by_gears ? "10a985" : Environment::highest_speed_parameter();
+  }
   double radius_deviation() const override { return radius_deviation_; }
   language::TextSource* subprogram(std::string_view name) override {
     auto* stored = resolve ? resolve(name) : nullptr;

@@ -2,12 +2,15 @@
 #include "language/block_executor.hpp"
 
 #include <bit>
+#include <cmath>
 #include <cstdio>
 
 namespace trunnion::language {
 namespace {
 
 constexpr std::uint32_t highest_repetition = 999999;
+constexpr std::uint16_t orientation_code = 19;
+constexpr double largest_angle = 360;  // deg
 
 /// The groups from `first` to `last`, which act one after the other.
 constexpr std::uint32_t groups(Group first, Group last) { return (group_bit(last) << 1) - group_bit(first); }
@@ -148,6 +151,7 @@ Fault BlockExecutor::act() {
   const GCodes& g = context_.words.g();
   const bool one_block = g.has(Group::one_block);
   if (handlers_.curve.open()) return handlers_.curve.add_block();
+  if (orientation_word() != '\0') return {};
   if (context_.state.parameter_input && !one_block) return handlers_.tables.parameter_line();
   if ((g.present() & (frame_groups | group_bit(Group::one_block))) != 0) {
     bool taken = false;
@@ -175,12 +179,51 @@ Fault BlockExecutor::auxiliary(When when) {
                                                    : SpindleDirection::stopped;
     }
     if (code.action == MAction::auxiliary || code.action == MAction::tool_change) {
-      context_.output.push(CommandKind::auxiliary).number = code.number;
+      const char word = code.number == orientation_code ? orientation_word() : '\0';
+      double angle = 0;
+      if (word != '\0') {
+        if (const Fault fault = orientation(word, angle)) return fault;
+      }
+      Command& command = context_.output.push(CommandKind::auxiliary);
+      command.number = code.number;
+      command.value = angle;
+      command.has_value = word != '\0';
     } else if (code.action == MAction::program_end) {
       if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, m.offsets[i]};
       if (const Fault fault = context_.output.push_end(code.number)) return fault;
     }
   }
+  return {};
+}
+
+// Where nothing else of the block can mean R or P.
+char BlockExecutor::orientation_word() const {
+  constexpr std::uint32_t others = axis_bits | letter_bits("IJK");
+  const BlockWords& words = context_.words;
+  const ModalState& modal = context_.state.modal;
+  if (words.g().present() != 0 || (words.letters() & others) != 0) return '\0';
+  if (modal.cycle != 80 || modal.motion == 62 || handlers_.curve.open() || context_.state.parameter_input)
+    return '\0';
+  bool orients = false;
+  for (std::size_t i = 0; i < words.m().count; ++i) {
+    if (words.m().codes[i].group == MGroup::flow) return '\0';
+    orients = orients || words.m().codes[i].number == orientation_code;
+  }
+  return !orients ? '\0' : words.has('R') ? 'R' : words.has('P') ? 'P' : '\0';
+}
+
+Fault BlockExecutor::orientation(char word, double& angle) {
+  context_.words.use(word);
+  const double value = context_.words.value(word);
+  if (std::abs(value) > largest_angle) {
+    FaultDetail& detail = context_.detail;
+    detail.number = AlarmNumber::value_range;
+    std::snprintf(detail.text.data(), detail.text.size(), "the angle of M19 is -360 to 360 deg");
+    return {detail.number, context_.words.offset(word)};
+  }
+  angle = std::fmod(value, largest_angle);
+  if (angle < 0) angle += largest_angle;
+  if (!(angle > 0 && angle < largest_angle)) angle = 0;
   return {};
 }
 

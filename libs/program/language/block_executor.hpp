@@ -116,6 +116,10 @@ class BlockExecutor {
   Fault check_context() const;
   Fault finish_block();
   Fault auxiliary(When when);
+  /// The letter of the angle of the block's M19, R or P; 0 when it has none.
+  char orientation_word() const;
+  /// deg in [0, 360)
+  Fault orientation(char word, double& angle);
   Fault set_flow(Flow& flow);
   Fault set_call(Flow& flow);
 

@@ -177,8 +177,11 @@ class Environment {
   /// The axes A B C U V W (bit a for Axis a) that are a spindle in position mode (axis number -2 in
   /// parameters 04c004..04c009): those that G74 J and G84 J may name.
   virtual std::uint16_t spindle_axes() const { return 0; }
-  /// Highest speed of the spindle that S commands in 1/min (parameter 10a948); 0 = no limit.
+  /// Highest speed of the spindle that S commands in 1/min (parameter 10a948, or that of its highest gear);
+  /// 0 = no limit.
   virtual double highest_spindle_speed() const { return 0; }
+  /// The parameter that limits it.
+  virtual const char* highest_speed_parameter() const { return "10a948"; }
   /// Largest difference of an arc's radii at its start and its end in mm (parameter 000011, default 0.1).
   virtual double radius_deviation() const = 0;
   /// The text of a subprogram that is not in the calling text, or nullptr. `name` is O and at least four

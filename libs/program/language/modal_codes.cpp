@@ -50,7 +50,8 @@ Fault ModalCodes::check_spindle_speed(double speed) {
   if (highest == 0 || speed <= highest) return {};
   FaultDetail& detail = context_.detail;
   detail.number = AlarmNumber::spindle_speed_above;
-  std::snprintf(detail.text.data(), detail.text.size(), "at most %.10g 1/min (10a948)", highest);
+  std::snprintf(detail.text.data(), detail.text.size(), "at most %.10g 1/min (%s)", highest,
+                environment_.highest_speed_parameter());
   return {detail.number, words_.offset('S')};
 }
 

@@ -16,7 +16,8 @@ using idl::channel::AuxiliaryKind;
 struct AuxiliaryFunction {
   AuxiliaryKind kind = AuxiliaryKind::M;
   std::uint32_t code = 0;  ///< M or T number
-  double value = 0;        ///< S in 1/min, or m/min with G96
+  double value = 0;        ///< S in 1/min, or m/min with G96; with has_value the angle of M19 in deg
+  bool has_value = false;  ///< of M
 };
 
 /// Takes every command of a program in its sequence and keeps the state they add up to. M codes of no group
@@ -41,6 +42,8 @@ class AuxiliaryMemory {
   bool mist_ = false, flood_ = false;
   double speed_ = 0;
   std::uint32_t spindle_ = 5;
+  double angle_ = 0;  // deg, of M19
+  bool has_angle_ = false;
   std::uint32_t not_repeated_ = 0;
 };
 

@@ -109,19 +109,19 @@ void ChannelCore::execute(const language::Command& command) {
       flow().finish_pending();
       return;
     case language::CommandKind::tool:
-      begin_auxiliary({AuxiliaryKind::T, command.number, 0});
+      begin_auxiliary({AuxiliaryKind::T, command.number, 0, false});
       return;
     case language::CommandKind::spindle_speed:
-      begin_auxiliary({AuxiliaryKind::S, 0, command.value});
+      begin_auxiliary({AuxiliaryKind::S, 0, command.value, false});
       return;
     case language::CommandKind::auxiliary:
       if (command.number == optional_stop && !switches_.optional_stop)
         flow().finish_pending();
       else
-        begin_auxiliary({AuxiliaryKind::M, command.number, 0});
+        begin_auxiliary({AuxiliaryKind::M, command.number, command.value, command.has_value});
       return;
     case language::CommandKind::end:
-      begin_auxiliary({AuxiliaryKind::M, command.number, 0});
+      begin_auxiliary({AuxiliaryKind::M, command.number, 0, false});
       return;
     default:
       flow().finish_pending();

@@ -46,6 +46,17 @@ TEST(AuxiliaryHandshake, RaisesTheStrobeAndLowersItWhenThePlcHasDoneExactlyThisF
   EXPECT_EQ(handshake.finish(done(raised->number)), Outcome::not_open) << "a second answer is stale";
 }
 
+TEST(AuxiliaryHandshake, CarriesTheAngleOfM19) {
+  AuxiliaryHandshake handshake(0);
+  handshake.begin({AuxiliaryKind::M, 19, 90, true}, 7);
+  const auto raised = handshake.take_request();
+  ASSERT_TRUE(raised);
+  EXPECT_TRUE(raised->has_value);
+  EXPECT_EQ(raised->value, 90);
+  EXPECT_EQ(raised->cycle, 7u);
+  EXPECT_EQ(handshake.function(), "M19");
+}
+
 TEST(AuxiliaryHandshake, CountsFunctionsAndContinuesBehindThoseOfTheProcessBefore) {
   AuxiliaryHandshake handshake(0);
   handshake.continue_numbers(3);

@@ -92,6 +92,7 @@ void expect_same_logic(const std::string& list_directory, const std::string& mac
                                                            : M,
                                                codes[random() % std::size(codes)],
                                                static_cast<double>(random() % 70000),
+                                               false,
                                                10};
         both([&](PlcCore& core) { core.set_request(request); });
       } else if (choice < 35) {

@@ -79,6 +79,24 @@ TEST(ChannelSetup, ASpeedAboveTheHighestOfTheSpindleOfTheChannelIsRefused) {
   EXPECT_EQ(alarm("S6001").alarm, 1126u);
 }
 
+TEST(ChannelSetup, ASpeedAboveThatOfTheHighestGearIsRefused) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const std::uint32_t of_spindle = 1000u * ChannelSetup(tables).tapping_spindle().axis.value();
+  const auto alarm = [&](const std::string& text) {
+    ChannelSetup setup(tables);
+    return test::read(setup, text);
+  };
+  tables.parameters.values[100948 + of_spindle].value = 12000;
+  tables.parameters.values[100985 + of_spindle].value = 900;   // gear 1
+  tables.parameters.values[100987 + of_spindle].value = 3500;  // gear 3; there is no gear 2
+  EXPECT_EQ(alarm("S3500").alarm, 0u);
+  EXPECT_EQ(alarm("S3501").text,
+            "speed above the highest of the spindle: S3501, at most 3500 1/min (10a985)");
+  tables.parameters.values[100948 + of_spindle].value = 3000;
+  EXPECT_EQ(alarm("S3001").text,
+            "speed above the highest of the spindle: S3001, at most 3000 1/min (10a948)");
+}
+
 // HNC-8: 040007 (U) = -2 makes U the spindle that G84 J4 taps with. Further letters are the spindles behind
 // 040913.
 TEST(ChannelSetup, LettersWithAxisNumberMinusTwoAreTheTappingSpindles) {

@@ -36,6 +36,30 @@ TEST(Positioning, SpindleDirectionIsModal) {
   EXPECT_EQ(result.commands[5].modal.spindle_direction, SpindleDirection::stopped);
 }
 
+TEST(Orientation, ROrPOfM19IsItsAngleWithinATurn) {
+  TestMachine machine;
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(
+      stream(run(machine, "M19\nM19 R90.\nM19 P270\nN4 M19 R-90 S100\nM19 R360\nM19 R-360 M8\nM19 R0\n")),
+      (Lines{"M19", "M19 at 90", "M19 at 270", "S100", "M19 at 270", "M19 at 0", "M19 at 0", "M8", "M19 at 0",
+             "end 0"}));
+  EXPECT_EQ(stream(run(machine, "G20 M19\nM19 R12.5\n")), (Lines{"M19", "M19 at 12.5", "end 0"}))
+      << "an angle has no inches";
+  EXPECT_EQ(stream(run(machine, "G2 X10 Y0 R5 F100\nM19 R30\n"))[1], "M19 at 30") << "it is no radius";
+  EXPECT_EQ(stream(run(machine, "M19 R360.5\n")), (Lines{"alarm 1106 1:5"}));
+}
+
+// R and P keep the meaning that they have in blocks with other codes or with axis words.
+TEST(Orientation, ROrPOfAnotherCodeIsNoAngle) {
+  TestMachine machine;
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(stream(run(machine, "G4 P500 M19\n")), (Lines{"M19", "dwell 0.5", "end 0"}));
+  EXPECT_EQ(stream(run(machine, "M3 R90\n")), (Lines{"alarm 1107 1:4"}));
+  EXPECT_EQ(stream(run(machine, "M19 P90 R80\n")), (Lines{"alarm 1107 1:5"})) << "one angle";
+  const auto hole = stream(run(machine, "G81 Z-10 R2 F100\nM19 R3\n"));
+  EXPECT_EQ(hole.at(hole.size() - 5), "M19") << "it drills a hole from another level";
+}
+
 TEST(Skip, NothingIsReadBeforeThePositionIsKnown) {
   TestMachine machine = machine_with_references();
   StringSource text("G55 G91 G31 X20 F100 M8\nX1 G0\nG90 X1\n");

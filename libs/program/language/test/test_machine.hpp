@@ -265,6 +265,7 @@ inline std::string brief(const Command& command) {
     case CommandKind::tool:
     case CommandKind::auxiliary:
       text += std::to_string(command.number);
+      if (command.has_value) text += " at " + number(command.value);
       break;
     case CommandKind::transformation:
       text += command.modal.transformation == Transformation::rtcp ? " rtcp" : " none";

@@ -41,6 +41,18 @@ TEST(AuxiliaryMemory, GivesTheFunctionsThatAddUpToTheStateInOneSequence) {
   EXPECT_EQ(codes(memory.functions()), (Codes{{S, 0}, {M, 5}, {M, 9}}));
 }
 
+TEST(AuxiliaryMemory, KeepsTheAngleOfM19UntilAnotherFunctionOfTheSpindle) {
+  AuxiliaryMemory memory;
+  auto orient = auxiliary(19);
+  orient.value = 90, orient.has_value = true;
+  memory.pass(orient);
+  ASSERT_EQ(codes(memory.functions()), (Codes{{M, 19}}));
+  EXPECT_TRUE(memory.functions()[0].has_value);
+  EXPECT_EQ(memory.functions()[0].value, 90);
+  memory.pass(auxiliary(19));
+  EXPECT_FALSE(memory.functions()[0].has_value);
+}
+
 TEST(AuxiliaryMemory, GivesOnlyTheGroupsAgainThatWereChangedMeanwhile) {
   AuxiliaryMemory program, by_hand;
   program.pass(auxiliary(3));

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Angles, gears and couplings of spindles: registers into outputs, and what the drive says into registers.
+#include <gtest/gtest.h>
+
+#include "core_bench.hpp"
+
+namespace trunnion::plc::spindles_test {
+namespace {
+
+using idl::stream::SpindleCondition;
+
+std::int32_t value_of(const Bench& bench, const char* name, std::size_t index) {
+  return load(bench.core.memory().registers, interface_address(name, index));
+}
+
+/// As a program that writes the register in every scan.
+void write(Bench& bench, const char* name, std::size_t index, std::uint64_t value) {
+  const auto at = interface_address(name, index);
+  bench.core.force({st::address_of(at.area, at.index), at.bit, value, 0, 0});
+  bench.feedback();
+}
+
+TEST(Spindles, WhatNoProgramUsesIsNotInTheOutputs) {
+  Bench bench;
+  bench.request(AuxiliaryKind::M, 19);
+  const auto outputs = bench.core.outputs();
+  EXPECT_EQ(outputs.spindle_orient, (std::vector<std::uint8_t>{1, 0}));
+  EXPECT_TRUE(outputs.spindle_angle.empty());
+  EXPECT_TRUE(outputs.spindle_gear.empty());
+  EXPECT_TRUE(outputs.spindle_couplings.empty());
+  EXPECT_EQ(value_of(bench, "m_angle", 0), 65535);
+}
+
+// The drive gives up the angle of before, so that what it reports is the new one.
+TEST(Spindles, M19WithAnAngleIsFinishedAtThisAngle) {
+  Bench bench("ac-table");
+  bench.request_angle(19, 90);
+  EXPECT_EQ(value_of(bench, "m_angle", 0), 9000);
+  EXPECT_EQ(bench.core.outputs().spindle_angle, (std::vector<double>{90, -1}));
+  bench.run();
+  EXPECT_TRUE(bench.done());
+  EXPECT_EQ(bench.core.outputs().spindle_orient[0], 1);
+
+  bench.request_angle(19, 180);
+  bench.late_orientation = true;
+  bench.feedback();
+  EXPECT_FALSE(bench.done()) << "it is still held at 90 deg";
+  EXPECT_EQ(bench.core.outputs().spindle_orient[0], 0);
+  bench.late_orientation = false;
+  bench.run();
+  EXPECT_TRUE(bench.done());
+  EXPECT_EQ(bench.core.outputs().spindle_orient[0], 1);
+  EXPECT_EQ(bench.core.outputs().spindle_angle, (std::vector<double>{180, -1}));
+
+  bench.request(AuxiliaryKind::M, 19);
+  EXPECT_FALSE(bench.done());
+  bench.run();
+  EXPECT_TRUE(bench.done());
+  EXPECT_TRUE(bench.core.outputs().spindle_angle.empty()) << "10a945";
+}
+
+TEST(Spindles, ARestartedProcessKeepsTheAngleThatIsHeld) {
+  Bench bench("ac-table");
+  bench.request_angle(19, 90);
+  bench.run();
+  Bench again("ac-table", false);
+  again.core.restore(bench.core.memory());
+  again.tick = bench.tick;
+  again.feedback();
+  EXPECT_EQ(again.core.outputs().spindle_orient[0], 1);
+  EXPECT_EQ(again.core.outputs().spindle_angle, (std::vector<double>{90, -1}));
+}
+
+TEST(Spindles, AGearIsInTheOutputsWhileOneIsEngaged) {
+  Bench bench;
+  write(bench, "spindle_gear", 1, 2);
+  EXPECT_EQ(bench.core.outputs().spindle_gear, (std::vector<std::uint8_t>{0, 2}));
+  write(bench, "spindle_gear", 1, 0);
+  EXPECT_TRUE(bench.core.outputs().spindle_gear.empty());
+}
+
+TEST(Spindles, ACouplingNeedsAnotherSpindleAsItsMaster) {
+  Bench bench;
+  write(bench, "spindle_master_angle", 1, 9000);
+  write(bench, "spindle_reverse", 1, 1);
+  write(bench, "spindle_integral", 1, 2);
+  EXPECT_TRUE(bench.core.outputs().spindle_couplings.empty());
+  write(bench, "spindle_master", 1, 1);
+  const auto couplings = bench.core.outputs().spindle_couplings;
+  ASSERT_EQ(couplings.size(), 1u);
+  EXPECT_EQ(couplings[0].slave, 1);
+  EXPECT_EQ(couplings[0].master, 0);
+  EXPECT_TRUE(couplings[0].reverse);
+  EXPECT_EQ(couplings[0].angle, 90);
+  EXPECT_EQ(couplings[0].integral, idl::plc::IntegralAction::INTEGRAL_FROZEN);
+  for (const std::uint64_t no_other : {2u, 3u, 0u}) {  // itself; the machine has two
+    write(bench, "spindle_master", 1, no_other);
+    EXPECT_TRUE(bench.core.outputs().spindle_couplings.empty()) << no_other;
+  }
+}
+
+/// Spindle 1 follows spindle 0.
+idl::stream::SpindleState slave(SpindleCondition condition) {
+  idl::stream::SpindleState state;
+  state.condition = condition;
+  state.master = 0;
+  return state;
+}
+
+// Time runs on until the drive says so: the main task runs every 10 ms.
+TEST(Spindles, ASlaveIsAtSpeedWhenItIsSynchronized) {
+  Bench bench;
+  bench.spindles.resize(2);
+  bench.spindles[0].master = -1;
+  bench.spindles[1].master = -1;
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_at_speed", 1), 1) << "it stands, as it is ordered";
+  write(bench, "spindle_master", 1, 1);
+  EXPECT_EQ(value_of(bench, "spindle_at_speed", 1), 0);
+  EXPECT_EQ(bench.core.outputs().run_until_tick, bench.tick + 10);
+  bench.spindles[1] = slave(SpindleCondition::SPINDLE_SYNCHRONIZING);
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_at_speed", 1), 0);
+  bench.spindles[1] = slave(SpindleCondition::SPINDLE_SYNCHRONIZED);
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_at_speed", 1), 1);
+  EXPECT_EQ(value_of(bench, "spindle_synchronized", 1), 1);
+  EXPECT_EQ(bench.core.outputs().run_until_tick, bench.tick);
+
+  // Another angle: what the drive says may be of the one before until it has said that it is not there.
+  write(bench, "spindle_master_angle", 1, 100);
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_synchronized", 1), 0);
+  bench.spindles[1] = slave(SpindleCondition::SPINDLE_SYNCHRONIZING);
+  bench.feedback();
+  // A slave that does not come holds virtual time for 30 s.
+  EXPECT_EQ(bench.core.outputs().run_until_tick, bench.tick + 10);
+  bench.tick += 31000;
+  bench.feedback();
+  EXPECT_EQ(bench.core.outputs().run_until_tick, bench.tick);
+  bench.spindles[1] = slave(SpindleCondition::SPINDLE_SYNCHRONIZED);
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_synchronized", 1), 1);
+  write(bench, "spindle_master", 1, 0);
+  EXPECT_EQ(value_of(bench, "spindle_synchronized", 1), 0);
+  EXPECT_EQ(value_of(bench, "spindle_at_speed", 1), 1);
+}
+
+// 985 of 1000 1/min are within 2 %, 975 are not.
+TEST(Spindles, TheWindowOfTheSpeedIsAParameter) {
+  Bench bench;
+  auto parameters = two_axes_and_spindles();
+  parameters.values[110970] = {2, ""};
+  bench.core.configure(parameters, true);
+  bench.request(AuxiliaryKind::S, 0, 1000);
+  bench.request(AuxiliaryKind::M, 3);
+  bench.speed[0] = 975;
+  bench.feedback();
+  EXPECT_FALSE(bench.done());
+  bench.speed[0] = 985;
+  bench.feedback();
+  EXPECT_TRUE(bench.done());
+}
+
+// 2.25 turns are 90 deg; 0.999999 turns are 359.9996 deg, which rounds to 0.
+TEST(Spindles, TheAngleCountsFromTheIndexMarkWithinATurn) {
+  Bench bench;
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_homed", 0), 0);
+  bench.spindles.resize(2);
+  bench.spindles[0].homed = true;
+  bench.spindles[0].angle = 2.25;
+  bench.spindles[1].angle = -0.25;
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_homed", 0), 1);
+  EXPECT_EQ(value_of(bench, "spindle_homed", 1), 0);
+  EXPECT_EQ(value_of(bench, "spindle_position", 0), 9000);
+  EXPECT_EQ(value_of(bench, "spindle_position", 1), 27000);
+  bench.spindles[0].angle = 0.999999;
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_position", 0), 0);
+  EXPECT_EQ(hundredths(-90), 27000);
+  EXPECT_EQ(hundredths(360), 0);
+}
+
+}  // namespace
+}  // namespace trunnion::plc::spindles_test
