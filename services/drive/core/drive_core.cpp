@@ -36,6 +36,7 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   for (std::size_t i = 0; i < axes_.size(); ++i) limits_[i] = axis_limits(p, axes_[i].number);
   slaves_.configure(p, axes_.size());
   spindles_.configure(p, dt_);
+  spindles_.report_parameters(events_);
   row_.spindles.resize(spindles_.size());
   hardware_->configure(p, axes_, spindles_.axes(), dt_);
   if (first)
@@ -351,6 +352,7 @@ void DriveCore::exchange() {
     axis = {command_[i], velocity, acceleration};
   }
   spindles_.step(status_.spindles, row_.controlled, row_.spindles);
+  spindles_.report(status_.spindles, events_);
   if (testing() && (mode_ == Mode::OFF || mode_ == Mode::BRAKING || mode_ == Mode::HELD))
     hardware_->tester()->end(idl::servo::TestPhase::ENDED_BY_STOP);
   hardware_->exchange(row_, status_, rows_);

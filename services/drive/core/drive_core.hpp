@@ -61,10 +61,14 @@ class DriveCore {
   void request(const idl::stream::StreamRequest& request);
   void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);
   void set_spindle_speed(const std::vector<double>& speed) { spindles_.demand_speeds(speed); }
-  /// Spindles that turn to their orientation angle and are held there; not while they are coupled.
-  void set_spindle_orientation(const std::vector<std::uint8_t>& orient) {
-    spindles_.demand_orientations(orient);
+  /// Spindles that turn to their orientation angle and are held there; not while they are coupled. `angle`
+  /// deg: below 0 or missing = that of the parameters.
+  void set_spindle_orientation(const std::vector<std::uint8_t>& orient,
+                               const std::vector<double>& angle = {}) {
+    spindles_.demand_orientations(orient, angle);
   }
+  /// Gears that are engaged, from 1; 0 or missing = the spindle has none.
+  void set_spindle_gears(const std::vector<std::uint8_t>& gear) { spindles_.engage_gears(gear); }
 
   /// With the probe on, a rising edge of skip input 1 outside a skip move stops the axes and is an alarm.
   void set_probe(bool on) { row_.probe_on = on; }

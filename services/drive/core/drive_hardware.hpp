@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "bus/json_type.hpp"
@@ -33,13 +34,15 @@ struct AxisSetpoint {
 };
 
 struct SpindleSetpoint {
-  double speed = 0;      ///< demanded by the PLC; not in force while coupled
-  bool coupled = false;  ///< the spindle follows `angle` (tapping)
+  double speed = 0;      ///< reference of the speed; not in force while coupled
+  bool coupled = false;  ///< the spindle follows `angle` (tapping, orientation)
   double angle = 0;
+  std::uint8_t gear = 0;  ///< in force, from 1; 0 = the spindle has no gears
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("speed", self.speed), visit("coupled", self.coupled), visit("angle", self.angle);
+    if (!std::is_const_v<Self> || self.gear != 0) visit("gear", self.gear);
   }
 };
 
@@ -88,6 +91,10 @@ struct AxisStatus {
 
 struct SpindleStatus {
   double speed = 0, angle = 0;
+  /// The index mark was passed since the start: `angle` is whole at it. Until then it counts from where the
+  /// spindle was, and it steps when the spindle is homed, but never while the spindle is coupled.
+  bool homed = true;
+  double torque = 0;  ///< share of what the motor can at this speed, without sign; 0 = not known
 };
 
 /// Encoder positions at the end of the period of row `number`, when its setpoints should be reached; hardware

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the drive reports: executed rows, the axes, and the consistent cut of every channel.
-#include <algorithm>
-
 #include "drive_core.hpp"
 
 namespace trunnion::drive {
@@ -24,9 +22,7 @@ void DriveCore::fill(idl::stream::Feedback& out) {
     const auto* slave = slaves_.at(i);
     out.enabled[i] = mode_ == Mode::OFF ? 0 : slave != nullptr && slave->off ? 3 : 1;
   }
-  spindles_.fill(status_.spindles, out);
-  for (std::size_t i = 0; i < std::min(out.spindles.size(), status_.spindles.size()); ++i)
-    out.spindles[i].angle = status_.spindles[i].angle;
+  spindles_.fill(status_.spindles, row_.spindles, row_.controlled, out);
   out.starved = starved_;
   out.skip_inputs = status_.skip_inputs;
   streams_.fill(next_, out);

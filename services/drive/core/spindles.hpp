@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spindles of the machine. Each has the speed that the PLC demands, turns to its orientation angle and is
-// held there, or follows an angle of the stream.
+// The spindles of the machine. Each has the speed that the PLC demands, within its gear and by its ramp,
+// turns to its orientation angle and is held there, or follows an angle of the stream.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
+#include "drive_event.hpp"
 #include "drive_hardware.hpp"
 #include "machine/axes.hpp"
 #include "spindle_coupling.hpp"
+#include "spindle_gear.hpp"
 #include "spindle_orientation.hpp"
+#include "spindle_ramp.hpp"
 
 namespace trunnion::drive {
 
@@ -24,8 +29,11 @@ class Spindles {
 
   /// 1/min; 0 for those that `speed` does not have.
   void demand_speeds(const std::vector<double>& speed);
-  /// Spindles that are to be oriented; not while they are coupled.
-  void demand_orientations(const std::vector<std::uint8_t>& orient);
+  /// Spindles that are to be oriented; not while they are coupled. `angle` deg: below 0, or of those that it
+  /// does not have, that of the parameters.
+  void demand_orientations(const std::vector<std::uint8_t>& orient, const std::vector<double>& angle = {});
+  /// From 1; 0, or of those that `gear` does not have: none.
+  void engage_gears(const std::vector<std::uint8_t>& gear);
 
   SpindleCoupling& coupling(int column) { return couplings_[static_cast<std::size_t>(column)]; }
   /// Coupled spindles continue at the speed of their last setpoint for `cycles`.
@@ -33,18 +41,45 @@ class Spindles {
 
   /// One period: the setpoint of every spindle.
   void step(const std::vector<SpindleStatus>& status, bool controlled, std::vector<SpindleSetpoint>& out);
-  void fill(const std::vector<SpindleStatus>& status, idl::stream::Feedback& out) const;
+  /// `row`: of the last step(), and whether it was `controlled`.
+  void fill(const std::vector<SpindleStatus>& status, const std::vector<SpindleSetpoint>& row,
+            bool controlled, idl::stream::Feedback& out) const;
 
-  /// No field, configure() sets it: axes_.
+  /// Appends what is wrong with the parameters. Not cyclic.
+  void report_parameters(std::vector<DriveEvent>& events) const;
+  /// Appends what the last step() has found.
+  void report(const std::vector<SpindleStatus>& status, std::vector<DriveEvent>& events) const;
+  /// The alarms are reset.
+  void acknowledge();
+
+  /// No fields, configure() sets them: axes_, windows_, period_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("spindles", self.couplings_), visit("orientations", self.orientations_);
+    // Written where there is something: other recordings have no such state.
+    if (!std::is_const_v<Self> || std::any_of(self.ramps_.begin(), self.ramps_.end(), [](const auto& ramp) {
+          return ramp.settings().speed_dependent;
+        }))
+      visit("ramps", self.ramps_);
+    if (!std::is_const_v<Self> || std::any_of(self.gears_.begin(), self.gears_.end(),
+                                              [](const auto& gear) { return gear.engaged() != 0; }))
+      visit("gears", self.gears_);
   }
 
  private:
+  /// What the PLC demands, within the gear in force, 1/min.
+  double commanded_speed(std::size_t column) const;
+  idl::stream::SpindleState state(std::size_t column, const SpindleStatus& status, const SpindleSetpoint& row,
+                                  bool controlled) const;
+  void fill_synchronization(std::size_t column, idl::stream::SpindleState& state) const;
+
   std::vector<machine::AxisInfo> axes_;
   std::vector<SpindleCoupling> couplings_;
   std::vector<SpindleOrientation> orientations_;
+  std::vector<SpindleRamp> ramps_;
+  std::vector<SpindleGear> gears_;
+  std::vector<double> windows_;  // share of the commanded speed
+  double period_ = 0.001;
 };
 
 }  // namespace trunnion::drive

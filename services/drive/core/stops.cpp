@@ -86,6 +86,7 @@ void DriveCore::watch_probe() {
 
 void DriveCore::acknowledge() {
   supervision_.acknowledge();
+  spindles_.acknowledge();
   enable_.acknowledge();
   hardware_->reset_faults();
 }
