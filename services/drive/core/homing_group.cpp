@@ -35,7 +35,7 @@ void HomingGroup::gather(std::uint16_t channel, std::size_t column, GantrySlaves
 }
 
 HomingGroup::Start HomingGroup::start(const machine::AxisInfo& axis, const std::vector<AxisLimits>& limits,
-                                        const std::vector<double>& command) {
+                                      const std::vector<double>& command, double speed) {
   HomingCycle::Settings settings;
   settings.direction = 0;
   const auto& master = limits[column_];
@@ -58,6 +58,10 @@ HomingGroup::Start HomingGroup::start(const machine::AxisInfo& axis, const std::
   }
   if (settings.direction == 0) return Start::nothing;
   if (contrary) return Start::contrary;
+  if (speed > 0) {
+    settings.search = std::min(settings.search, speed);
+    settings.creep = std::min(settings.creep, settings.search);
+  }
   // Away from the switch and towards it at most.
   settings.seconds = 2 * settings.travel / settings.search + slow_share * settings.travel / settings.creep;
   homing_.start(settings, command[column_]);
