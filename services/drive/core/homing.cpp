@@ -79,8 +79,7 @@ void DriveCore::note_search(HomingCycle::State state) {
   auto* const channel = streams_.find(homing_.channel());
   if (channel == nullptr) return;
   if (state == HomingCycle::State::moving)
-    channel->search =
-        homing_.leaves_switch() ? ReferenceSearch::MOVES_OFF_SWITCH : ReferenceSearch::SEARCHES;
+    channel->search = homing_.leaves_switch() ? ReferenceSearch::MOVES_OFF_SWITCH : ReferenceSearch::SEARCHES;
   else if (state == HomingCycle::State::done)
     channel->search = ReferenceSearch::REFERENCE_FOUND;
   else

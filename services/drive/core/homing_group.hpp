@@ -51,7 +51,7 @@ class HomingGroup {
   void abort() { homing_.abort(); }
   /// One period of `period` s: the setpoints of its axes in `command`. Cyclic.
   HomingCycle::State step(const std::vector<AxisLimits>& limits, const std::vector<AxisStatus>& status,
-                     double period, std::vector<double>& command);
+                          double period, std::vector<double>& command);
   /// Whose reference is found or needs no search; until end().
   const std::vector<Member>& members() const { return members_; }
   /// By what the positions of a member become greater; none when it has its reference.
