@@ -98,6 +98,7 @@ std::optional<Motion> MotionTracker::follow(const Command& command) {
     case CommandKind::tap:
       break;
     case CommandKind::transformation:
+    case CommandKind::home:
       target_ = command.target;
       machine_ = to_machine(command, command.target);
       return std::nullopt;

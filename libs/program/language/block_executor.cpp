@@ -33,7 +33,8 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
   }
-  state.needs_position = false;
+  state.needs_position = state.homing = false;
+  state.homed = 0;
   context_.tables.load(context_.environment);
   settings.frame.set_work_offset(context_.tables.work_offset(state.modal.work_offset));
   settings.frame.set_tilt(state.modal.tilt);
@@ -66,7 +67,12 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
 
 Fault BlockExecutor::run(Flow& flow) {
   if (const Fault fault = carry_out(groups(Group::exact_stop, Group::feed_mode))) return fault;
-  if (const Fault fault = handlers_.modal.feed_word()) return fault;
+  // F of a search for references is its speed, and no feed.
+  const bool homes =
+      context_.words.g().is(Group::one_block, 282) || context_.words.g().is(Group::one_block, 1590);
+  if (!homes) {
+    if (const Fault fault = handlers_.modal.feed_word()) return fault;
+  }
   if (const Fault fault = carry_out(group_bit(Group::spindle_mode))) return fault;
   if (const Fault fault = handlers_.modal.spindle_word()) return fault;
   if (const Fault fault = handlers_.modal.tool_word()) return fault;
@@ -266,7 +272,7 @@ Fault BlockExecutor::set_call(Flow& flow) {
 
 void BlockExecutor::set_position(const AxisValues& position) {
   if (context_.output.compensating()) context_.output.drop_compensation();
-  context_.state.needs_position = false;
+  context_.state.needs_position = context_.state.homing = false;
   context_.state.locate(position);
 }
 

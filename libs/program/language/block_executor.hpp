@@ -61,8 +61,13 @@ class BlockExecutor {
   bool busy() const { return context_.activity != Activity::none || context_.output.draining(); }
   Fault resume(CommandQueue& out);
 
-  /// A skip move (G31) was given out: nothing can be executed before set_position() reports where it ended.
+  /// A skip move (G31) or a search for references (G28.2) was given out: nothing can be executed before
+  /// set_position() reports where it ended.
   bool needs_position() const { return context_.state.needs_position; }
+  /// It is the search.
+  bool homing() const { return context_.state.homing; }
+  /// The axes that the searches since start() name, bit a for Axis a.
+  std::uint16_t homed() const { return context_.state.homed; }
 
   /// Appends the end of the program; `number` as Command::number.
   Fault end_program(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);

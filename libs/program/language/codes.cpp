@@ -63,6 +63,11 @@ constexpr std::array rows = {
           run<&BlockHandlers::positioning, &Positioning::return_to_reference>,
           "the named axes over the point given to the reference position, in rapid", Origin::iso, "0.1",
           "G28 X1"},
+    GCode{
+        282, Group::one_block, AxisWords::taken, run<&BlockHandlers::positioning, &Positioning::home>,
+        "search of the references of the axes named, one after the other: X Y Z, U V W, A B C; F its speed, "
+        "at most the axis' own",
+        Origin::g2core, "0.3", "G28.2 X0 Z0"},
     GCode{290, Group::one_block, AxisWords::taken,
           run<&BlockHandlers::positioning, &Positioning::return_from_reference>,
           "from the reference position over the point of the last G28 or G30 to the point given, in rapid",
@@ -252,11 +257,15 @@ constexpr std::array rows = {
     GCode{990, Group::return_level, AxisWords::move,
           run<&BlockHandlers::modal, &ModalCodes::set_return_level, false>, "cycles end at R", Origin::iso,
           "0.2", "G99"},
+    GCode{1590, Group::one_block, AxisWords::taken, run<&BlockHandlers::positioning, &Positioning::home>,
+          "as G28.2; a letter alone names an axis", Origin::num, "0.3", "G159 X Z"},
 };
 
 constexpr std::uint8_t no_code = 0xff;
+constexpr std::size_t g_numbers = 1600;  // tenths below it can be codes
+static_assert(rows.back().tenths < g_numbers && rows.size() < no_code);
 constexpr auto g_index = [] {
-  std::array<std::uint8_t, 1000> index{};
+  std::array<std::uint8_t, g_numbers> index{};
   index.fill(no_code);
   for (std::size_t i = 0; i < rows.size(); ++i) index[rows[i].tenths] = static_cast<std::uint8_t>(i);
   return index;

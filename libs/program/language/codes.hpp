@@ -39,9 +39,11 @@ inline constexpr std::size_t group_count = 19;
 
 /// Where a code comes from.
 enum class Origin : std::uint8_t {
-  iso,    ///< ISO 6983, and the same on every control of this family
-  fanuc,  ///< as on Fanuc controls
-  hnc,    ///< as on HNC-8 controls
+  iso,     ///< ISO 6983, and the same on every control of this family
+  fanuc,   ///< as on Fanuc controls
+  hnc,     ///< as on HNC-8 controls
+  num,     ///< as on NUM controls
+  g2core,  ///< as on g2core and TinyG
 };
 
 /// What the axis words of a block with the code mean.

@@ -144,6 +144,14 @@ AlarmNumber ControlVariables::modal(std::uint32_t number, double& result) const 
   return AlarmNumber::none;
 }
 
+AlarmNumber ControlVariables::homed(std::uint32_t axis, double& result) const {
+  result = 1;
+  if (((executor_.homed() >> axis) & 1u) != 0) return AlarmNumber::none;
+  if (!homed_) return AlarmNumber::homed_unknown;
+  result = (*homed_ >> axis) & 1u;
+  return AlarmNumber::none;
+}
+
 AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t index, Value& value) const {
   double result = 0;
   switch (range.kind) {
@@ -178,6 +186,9 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
     case VariableKind::modal:
       if (const AlarmNumber alarm = modal(range.first + index, result); alarm != AlarmNumber::none)
         return alarm;
+      break;
+    case VariableKind::homed:
+      if (const AlarmNumber alarm = homed(index, result); alarm != AlarmNumber::none) return alarm;
       break;
     case VariableKind::block_end:
       result = in_program_units(index, executor_.program_position()[index]);

@@ -18,7 +18,7 @@ struct ControlTime {
   std::uint32_t time_of_day = 0;  ///< #3012, 235959
 };
 
-/// Reads #2001 and above from the executor and the machine's tables. Lengths are in the units of G20 or G21,
+/// Reads #1321 and above from the executor and the machine's tables. Lengths are in the units of G20 or G21,
 /// as program words are.
 class ControlVariables final : public SystemVariables {
  public:
@@ -31,6 +31,8 @@ class ControlVariables final : public SystemVariables {
   void set_program_number(std::uint32_t number) { program_number_ = number; }
   /// Where G31 stopped, workpiece, mm and degrees.
   void set_skip_position(const AxisValues& position) { skip_position_ = position; }
+  /// As Interpreter::set_homed().
+  void set_homed(std::optional<std::uint16_t> axes) { homed_ = axes; }
   void set_modal_macro(bool active) { modal_macro_ = active; }
   /// A cycle was called (#3100) and not answered yet.
   bool needs_answer() const { return needs_answer_; }
@@ -47,6 +49,7 @@ class ControlVariables final : public SystemVariables {
 
  private:
   AlarmNumber modal(std::uint32_t number, double& result) const;
+  AlarmNumber homed(std::uint32_t axis, double& result) const;
   double in_program_units(std::uint32_t axis, double value) const;
   double to_machine_units(std::uint32_t axis, double value) const;
   AlarmNumber ask(const VariableRange& range, std::uint32_t index, double value);
@@ -61,6 +64,7 @@ class ControlVariables final : public SystemVariables {
   bool modal_macro_ = false, needs_answer_ = false;
   double answer_ = 0;  // to the newest call of a cycle
   AxisValues skip_position_{};
+  std::optional<std::uint16_t> homed_ = 0x1ff;  // at the start, bit a for Axis a
   struct Request {
     VariableKind kind = VariableKind::message;
     std::uint32_t index = 0;

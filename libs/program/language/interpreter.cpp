@@ -203,7 +203,7 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
 }
 
 void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {
-  if (executor_.needs_position()) {
+  if (executor_.needs_position() && !executor_.homing()) {
     executor_.set_position(touched);
     variables_.set_skip_position(executor_.workpiece_position());
     control_.set_skip_position(variables_.skip_position());

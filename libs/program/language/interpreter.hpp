@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "language/block_executor.hpp"
 #include "language/control_variables.hpp"
@@ -23,10 +24,10 @@ enum class Step : std::uint8_t {
   pending,   ///< the text source has to deliver first: call again later
   end,       ///< the end command was taken before
   alarm,     ///< see alarm(); stays so until start()
-  position,  ///< the command before was a skip move: set_position() must report where it ended, for what the
-             ///< program does next depends on it
-  answer,    ///< the command before calls a cycle of another service: answer() must report what it has said
-  line,      ///< the line of stop_before_line() would be read next; it will be, when next() is called again
+  position,  ///< a command before was a skip move or a search for references: set_position() must report
+             ///< where it ended, for what the program does next depends on it
+  answer,  ///< the command before calls a cycle of another service: answer() must report what it has said
+  line,    ///< the line of stop_before_line() would be read next; it will be, when next() is called again
 };
 
 struct InterpreterOptions {
@@ -85,8 +86,15 @@ class Interpreter {
   /// after a move that ended elsewhere than commanded. Only sensible when next() has nothing prepared: after
   /// Step::end, or the command of a block's end.
   void set_position(const AxisValues& position) { set_position(position, position); }
-  /// The same behind a skip move; `touched` is where its input found the axes (#5061).
+  /// The same behind a skip move; `touched` is where its input found the axes (#5061). A search for
+  /// references (G28.2) leaves #5061.
   void set_position(const AxisValues& position, const AxisValues& touched);
+
+  /// Step::position is that of a search for references.
+  bool homing() const { return executor_.homing(); }
+  /// The axes that had their reference when the text began, bit a for Axis a; nothing: it is not known any
+  /// more, and a program that asks (#1321) has an alarm. All before the first call.
+  void set_homed(std::optional<std::uint16_t> axes) { control_.set_homed(axes); }
 
   /// The answer of a called cycle, which #3100 reads. Programs that are called from now on are looked for
   /// again: the service may have stored another text.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dwell and positioning without the modal motion code: G4, G28 .. G31, G53, G60.
+// Dwell, positioning without the modal motion code and homing: G4, G28 .. G31, G53, G60, G159.
 #pragma once
 
 #include "language/block_context.hpp"
@@ -12,6 +12,7 @@ class Positioning : private BlockHandler {
 
   Fault dwell(std::uint16_t at);                         ///< G4
   Fault return_to_reference(std::uint16_t at);           ///< G28
+  Fault home(std::uint16_t at);                          ///< G28.2, G159
   Fault return_to_numbered_reference(std::uint16_t at);  ///< G30
   Fault return_from_reference(std::uint16_t at);         ///< G29
   Fault move_until_skip(std::uint16_t at);               ///< G31

@@ -43,6 +43,7 @@ enum class VariableKind : std::uint8_t {
   extended_work_offset,
   kept,
   user,
+  homed,
 };
 
 struct VariableRange {
@@ -58,6 +59,10 @@ inline constexpr std::array variable_ranges = {
                   "local to a macro or cycle; M98 keeps those of its caller"},
     VariableRange{50, 199, VariableKind::common, true, "common to all programs, forgotten at power-off"},
     VariableRange{500, 999, VariableKind::kept, true, "common to all programs, kept"},
+    VariableRange{
+        1321, 1329, VariableKind::homed, false,
+        "1 = the axis had its reference when the program began, or the program has homed it: X Y Z A B C "
+        "U V W"},
     VariableRange{2001, 2200, VariableKind::length_wear, true, "tool length wear of tool 1 to 200, mm"},
     VariableRange{2201, 2400, VariableKind::length, true, "tool length of tool 1 to 200, mm"},
     VariableRange{2401, 2600, VariableKind::radius_wear, true, "tool radius wear of tool 1 to 200, mm"},

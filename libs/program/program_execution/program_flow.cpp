@@ -97,6 +97,10 @@ std::string ProgramFlow::travel_error(const AxisValues& from) {
 }
 
 FlowState ProgramFlow::push_move() {
+  // The drive gives the stream no place before every axis has its reference.
+  if (!without_reference_.empty())
+    return fail(language::AlarmNumber::axes_without_reference,
+                "axes without a reference: " + without_reference_ + ". Home them with G28.2, or in mode REF");
   const auto& from = motion_->end_position();
   if (command_.kind != CommandKind::dwell) {
     if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
@@ -157,9 +161,20 @@ FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text)
   return fail(definition_of(number), place(command_.program, command_.line) + ": " + std::string(text));
 }
 
-// A skip move has ended, now or before the restart: the interpreter continues from where it ended.
+// A restart behind it finds the axes as they have been homed since.
+void ProgramFlow::home_ended(const AxisValues& position) {
+  skips_.push_back({position, position});
+  place_ = position;
+  extent_ = channel_setup::AxisBox::of(position);
+  finish_pending();
+}
+
+// A skip move has ended, now or before the restart: the interpreter continues from where it ended. A search
+// for references that was passed over has ended at the reference positions.
 FlowState ProgramFlow::continue_after_skip() {
-  if (search_ == Search::line)
+  if (search_ == Search::line && interpreter_.homing())
+    skips_.push_back({home_target_, home_target_});
+  else if (search_ == Search::line)
     return fail_search("line " + std::to_string(command_.line) +
                        " measures (G31), and what follows depends on it");
   if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
@@ -233,7 +248,7 @@ FlowState ProgramFlow::take_step(language::Step step) {
 void ProgramFlow::note_motion() {
   const auto kind = command_.kind;
   bool moves = kind == CommandKind::tap || kind == CommandKind::skip || kind == CommandKind::arc ||
-               (kind == CommandKind::dwell && command_.dwell_seconds > 0);
+               kind == CommandKind::home || (kind == CommandKind::dwell && command_.dwell_seconds > 0);
   for (std::size_t i = 0; i < place_.size() && is_path(kind); ++i)
     moves = moves || std::abs(command_.target[i] - place_[i]) > least_motion;
   if (moves || kind == CommandKind::transformation) place_ = command_.target;
@@ -261,6 +276,7 @@ FlowState ProgramFlow::fill(bool single_block) {
       if (step == language::Step::working) continue;
       if (const auto state = take_step(step); state != FlowState::full) return state;
       if (!have_command_) continue;
+      if (command_.kind == CommandKind::home) home_target_ = command_.target;
       note_motion();
     }
     if (searching()) {

@@ -6,6 +6,8 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "channel_setup/channel_setup.hpp"
 #include "language/interpreter.hpp"
@@ -72,6 +74,11 @@ class ProgramFlow {
   /// kept. Nothing when there are none.
   void set_offset(const std::optional<AxisValues>& offset) { offset_ = offset; }
 
+  /// Names of the axes that have no reference: a move is then an alarm. Empty: all have theirs.
+  void set_without_reference(std::string_view axes) { without_reference_.assign(axes); }
+  /// As Interpreter::set_homed().
+  void set_homed(std::optional<std::uint16_t> axes) { interpreter_.set_homed(axes); }
+
   /// Ends a program where `watch` finds that it repeats for ever: Interpreter::watch_loops().
   void watch_loops(language::EndlessLoop* watch) { interpreter_.watch_loops(watch); }
 
@@ -108,6 +115,9 @@ class ProgramFlow {
   /// Where the pending skip move ended; the interpreter continues from there. A restart of the program reads
   /// the results again.
   void skip_ended(const SkipResult& result) { skips_.push_back(result); }
+  /// The pending search for references has ended at `position`; the interpreter continues from there. A
+  /// restart of the program reads it again, as the results of skip moves.
+  void home_ended(const AxisValues& position);
   /// The pending call of a cycle was answered.
   void cycle_answered(double value) {
     interpreter_.answer(value);
@@ -194,7 +204,9 @@ class ProgramFlow {
   Search search_ = Search::none;
   bool tapping_ = false, in_hole_ = false, text_missing_ = false;
   std::uint64_t lines_at_motion_ = 0, most_lines_ = lines_of_loop;
-  AxisValues place_{};  // where the newest motion ends
+  AxisValues place_{};        // where the newest motion ends
+  AxisValues home_target_{};  // of the newest search for references
+  std::string without_reference_;
   std::vector<SkipResult> skips_;
   std::size_t skips_read_ = 0;
 

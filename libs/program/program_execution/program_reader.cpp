@@ -96,6 +96,11 @@ std::optional<Ending> ProgramReader::take(const Command& command) {
       pass(command, command);
       flow_.cycle_answered(0);
       return std::nullopt;
+    case CommandKind::home:
+      motion_->moves().start(command.target, transformation_, tool_length_);
+      pass(command, command);
+      flow_.home_ended(command.target);
+      return std::nullopt;
     case CommandKind::transformation:
       transformation_ = command.modal.transformation;
       tool_length_ = command.modal.tool_length;
@@ -141,6 +146,7 @@ void ProgramReader::pass(const Command& command, const Command& move) {
     case CommandKind::skip:
     case CommandKind::tap:
     case CommandKind::transformation:
+    case CommandKind::home:
       from_ = command.target;
       break;
     default:

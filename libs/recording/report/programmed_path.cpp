@@ -45,6 +45,7 @@ class Tracer {
         break;
       }
       case CommandKind::transformation:
+      case CommandKind::home:
         jump(command);
         break;
       default:

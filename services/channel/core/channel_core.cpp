@@ -131,6 +131,7 @@ void ChannelCore::stop_activity() {
   const bool moved = preparing == nullptr || preparing->approaching;
   if (states_.busy() && stream_.idle() && !link().needs_epoch() && moved) machine_start_ = machine_position();
   skip_.end();
+  program_homing_.end();
   finish_tapping();
   if (stream_.moving() || link().state() == LinkState::requested) stream_.link().leave();
   keep_variables();
@@ -149,6 +150,7 @@ void ChannelCore::stop_activity() {
 void ChannelCore::finish(bool program_end) {
   const bool reset = states_.resetting();
   skip_.end();
+  program_homing_.end();
   finish_tapping();
   machine_start_ = machine_position();
   manual_.end_wheel();

@@ -34,6 +34,7 @@
 #include "program_cache.hpp"
 #include "program_execution/program_flow.hpp"
 #include "program_execution/tapping.hpp"
+#include "program_homing.hpp"
 #include "program_record.hpp"
 #include "program_selection.hpp"
 #include "skip_move.hpp"
@@ -114,7 +115,7 @@ class ChannelCore {
   void set_control(const idl::plc::ChannelControl& control);
   const idl::plc::ChannelControl& control() const { return interlock_.control(); }
   /// Logical numbers of the axes whose position is not known: a reference return gives them their reference.
-  void set_unreferenced(std::set<std::uint16_t> axes) { homing_.set_unreferenced(std::move(axes)); }
+  void set_unreferenced(std::set<std::uint16_t> axes);
   void set_ready(bool ready) { interlock_.set_ready(ready); }
   /// As StreamWriter::set_replicas().
   void set_replicas(bool may_start, std::uint64_t floor) { stream_.set_replicas(may_start, floor); }
@@ -166,8 +167,8 @@ class ChannelCore {
   // fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
   // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and the state of the
   // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, skip_,
-  // exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they are made again:
-  // program_path_, manual_path_, program_cache_, bodies_, unusable_, state_.
+  // exact_stop_, tapping_, program_homing_, homed_at_start_, restart_, recovered_, variables_news_, events_.
+  // No fields, they are made again: program_path_, manual_path_, program_cache_, bodies_, unusable_, state_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("link", self.stream_.link()), visit("handshake", self.handshake_),
@@ -192,6 +193,7 @@ class ChannelCore {
   Answer refuse(Refusal refusal) const { return refuse(*refusal.alarm, std::move(refusal.reason)); }
   Answer operable() const;
   Answer startable() const;
+  std::string names_without_reference() const;
   Answer set_override(double& override_, double fraction);
   Answer set_mode(Mode mode);
   Answer select(const std::string& name);
@@ -278,6 +280,15 @@ class ChannelCore {
   void begin_tapping();
   void finish_tapping();
 
+  // channel_homing.cpp: axes that a program homes.
+  void begin_program_homing(const language::Command& command);
+  void home_next();
+  void advance_program_homing();
+  void note_found(std::uint16_t axis);
+  void end_program_homing();
+  void tell_references();
+  std::uint16_t homed_axes() const;
+
   // channel_stream.cpp: setpoints.
   void hold();
   FlowState fill();
@@ -329,6 +340,7 @@ class ChannelCore {
   bool cycle_service_ = false;
   ManualMotion manual_;
   Homing homing_;
+  ProgramHoming program_homing_;
   // The program's motion stays planned while the axes are moved by MDI, by hand or to the program's start.
   ChannelPath program_path_, manual_path_;
   ProgramFlow program_flow_;
@@ -357,6 +369,8 @@ class ChannelCore {
   std::uint32_t tool_ = 0;        // in the spindle
   std::uint64_t tool_since_ = 0;  // cycle from which on the drive's snapshot knows of it
   double spindle_programmed_ = 0;
+  // As they were when the program started; nothing in a process that has not started it.
+  std::optional<std::uint16_t> homed_at_start_;
   // As they were when the program started: a restart interprets it again with the same.
   std::unique_ptr<language::VariableStore> variables_ = std::make_unique<language::VariableStore>();
   bool variables_news_ = false;

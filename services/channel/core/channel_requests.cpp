@@ -96,6 +96,9 @@ void ChannelCore::execute(const language::Command& command) {
     case language::CommandKind::tap:
       begin_tapping();
       return;
+    case language::CommandKind::home:
+      begin_program_homing(command);
+      return;
     case language::CommandKind::table:
       change_table(command);
       states_.wait();

@@ -17,10 +17,15 @@ std::string in_words(std::uint64_t lines) {
 }  // namespace
 
 std::string ChannelCore::detail() const {
-  if (homing_.active()) return homing_.detail(machine_.channel_axes(), switches_.feed_override > 0);
+  if (homing_.active()) {
+    auto text = homing_.detail(machine_.channel_axes(), link(), switches_.feed_override > 0);
+    if (const auto done = program_homing_.done_letters(); !done.empty()) text += "; homed: " + done;
+    return text;
+  }
   const bool running = states_.advances(), held = states_.in<Held>();
   const auto* preparing = states_.preparing();
   const auto& executed = progress_.executed;
+  if (held && program_homing_.under_way()) return "cycle start: homing of " + program_homing_.letters_left();
   if (preparing != nullptr && held) return "cycle start: " + words_of(preparing->preparation, machine_start_);
   if (loops())
     return "line " + std::to_string(flow().main_line()) + ": " + in_words(flow().lines_without_motion()) +

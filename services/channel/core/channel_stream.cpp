@@ -45,6 +45,7 @@ bool ChannelCore::motion_at_rest() const {
 void ChannelCore::advance() {
   if (!configured()) return;
   advance_homing();
+  advance_program_homing();
   apply_parameters();
   if (!states_.busy() || !stream_.idle()) return;
   if (states_.in<Holding>()) {  // the motion has stopped and was executed

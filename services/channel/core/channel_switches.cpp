@@ -132,7 +132,8 @@ Answer ChannelCore::retrace(bool on) {
     return {};
   }
   const bool program = states_.is(Activity::program) && states_.running() != nullptr && !restart_ &&
-                       !program_flow_.searching() && !tapping_.active() && !skip_.active();
+                       !program_flow_.searching() && !tapping_.active() && !skip_.active() &&
+                       !program_homing_.under_way();
   if (!program || (!states_.in<Running>() && !states_.in<Held>()))
     return refuse(alarm::request_invalid, "Only a program that runs or is held can be retraced");
   if (auto refusal = interlock_.start()) return refuse(std::move(*refusal));

@@ -38,6 +38,13 @@ class FakeDrive {
       mode = DriveMode::FOLLOWING;
     }
   }
+  /// It finds `axis` at `position`, or it does not.
+  void end_search(bool found, std::size_t axis = 0, double position = 0) {
+    mode = DriveMode::FOLLOWING;
+    echo_.search =
+        found ? idl::stream::ReferenceSearch::REFERENCE_FOUND : idl::stream::ReferenceSearch::SEARCH_FAILED;
+    if (found) position_[axis] = position;
+  }
   void put(const idl::stream::PathBatch& batch) { queue_.push_back(batch); }
   /// A skip input that axis `axis` switches on where it passes `position` upwards.
   struct Switch {

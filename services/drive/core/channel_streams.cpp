@@ -208,6 +208,7 @@ void ChannelStreams::fill(std::uint64_t next, idl::stream::Feedback& out) const 
     echo.start = channel.start;
     echo.snapshot = channel.snapshot;
     echo.states = channel.states;
+    echo.search = channel.search;
   }
 }
 

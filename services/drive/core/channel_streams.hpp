@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <type_traits>
 #include <vector>
 
 #include "contracts/types.hpp"
@@ -33,6 +34,7 @@ struct ChannelStream {
   std::vector<int> columns;
   int spindle = -1;        ///< that follows the channel's batches
   bool skip_move = false;  ///< of the newest batch of which a setpoint was passed
+  idl::stream::ReferenceSearch search = idl::stream::ReferenceSearch::NO_SEARCH;  ///< of its newest HOME
 
   /// Setpoints of the axes of the batch at `cycle`; null when they are not here.
   const double* row(std::uint64_t cycle) const;
@@ -50,6 +52,8 @@ struct ChannelStream {
     visit("states", self.states), visit("axes", self.axes), visit("columns", self.columns);
     visit("spindle", self.spindle), visit("skip_move", self.skip_move);
     visit("resume", self.resume);
+    if (!std::is_const_v<Self> || self.search != idl::stream::ReferenceSearch::NO_SEARCH)
+      visit("search", self.search);
   }
 };
 

@@ -130,7 +130,7 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
       if (mode_ == Mode::HOMING && request.channel == homing_.channel()) homing_.abort();
       break;
     case StreamRequestKind::HOME:
-      home(request.channel, request.axis);
+      home(channel, request);
       break;
   }
 }

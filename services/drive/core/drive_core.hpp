@@ -143,10 +143,11 @@ class DriveCore {
   bool prefilled(const StreamSupply& supply) const;
   void start(ChannelStream& channel, const idl::stream::StreamRequest& request);
   bool all_homed();
-  void home(std::uint16_t channel, std::uint16_t axis);
+  void home(ChannelStream& channel, const idl::stream::StreamRequest& request);
   void reference(std::size_t column, double shift);
   void reference_members();
   void step_homing();
+  void note_search(HomingCycle::State state);
   void follow_supply();
   void begin_braking();
   bool pass_cycle();

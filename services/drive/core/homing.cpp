@@ -5,6 +5,8 @@
 
 namespace trunnion::drive {
 
+using idl::stream::ReferenceSearch;
+
 // False, with an alarm that names them, when axes have no reference.
 bool DriveCore::all_homed() {
   std::string names;
@@ -20,19 +22,29 @@ bool DriveCore::all_homed() {
   return false;
 }
 
-void DriveCore::home(std::uint16_t channel, std::uint16_t number) {
-  const int found = machine::column_of(axes_, number);
-  if (found < 0 || mode_ != Mode::FOLLOWING || any_active()) return;
+void DriveCore::home(ChannelStream& channel, const idl::stream::StreamRequest& request) {
+  // As long as nothing else is known.
+  channel.search = ReferenceSearch::SEARCH_FAILED;
+  const int found = machine::column_of(axes_, request.axis);
+  if (found < 0) return;
+  if (mode_ == Mode::HOMING || (mode_ == Mode::FOLLOWING && any_active()))
+    raise(alarm::homing_failed, request.axis,
+          "Axis " + axes_[static_cast<std::size_t>(found)].name +
+              " was not homed: another channel moves or homes an axis. Wait until it has ended, then home "
+              "again");
+  if (mode_ != Mode::FOLLOWING || any_active()) return;
   auto column = static_cast<std::size_t>(found);
   if (const auto* slave = slaves_.at(column); slave != nullptr && !slave->off)
     column = slave->master_column();
   const auto& axis = axes_[column];
-  homing_.gather(channel, column, slaves_, command_);
-  switch (homing_.start(axis, limits_, command_)) {
+  homing_.gather(request.channel, column, slaves_, command_);
+  switch (homing_.start(axis, limits_, command_, request.speed)) {
     case HomingGroup::Start::moves:
+      channel.search = ReferenceSearch::SEARCHES;
       mode_ = Mode::HOMING;
       return;
     case HomingGroup::Start::nothing:
+      channel.search = ReferenceSearch::REFERENCE_FOUND;
       reference_members();
       break;
     case HomingGroup::Start::contrary:
@@ -62,8 +74,21 @@ void DriveCore::reference_members() {
   }
 }
 
+// For the channel that has demanded it.
+void DriveCore::note_search(HomingCycle::State state) {
+  auto* const channel = streams_.find(homing_.channel());
+  if (channel == nullptr) return;
+  if (state == HomingCycle::State::moving)
+    channel->search = homing_.leaves_switch() ? ReferenceSearch::MOVES_OFF_SWITCH : ReferenceSearch::SEARCHES;
+  else if (state == HomingCycle::State::done)
+    channel->search = ReferenceSearch::REFERENCE_FOUND;
+  else
+    channel->search = ReferenceSearch::SEARCH_FAILED;
+}
+
 void DriveCore::step_homing() {
   const auto state = homing_.step(limits_, status_.axes, dt_, command_);
+  note_search(state);
   if (state == HomingCycle::State::moving) return;
   if (state == HomingCycle::State::done) {
     reference_members();

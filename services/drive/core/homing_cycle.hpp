@@ -54,6 +54,8 @@ class HomingCycle {
   State state() const { return state_; }
   Failure failure() const { return failure_; }
   const Settings& settings() const { return settings_; }
+  /// It began on the switch, and the axis moves off it.
+  bool leaves_switch() const { return state_ == State::moving && phase_ == Phase::leave_fast; }
   /// The edges have been taken at the slow speed.
   bool edges_found() const { return !aborted_ && (phase_ == Phase::settle || phase_ == Phase::mark); }
   /// Machine position less the one of the encoder, when done.

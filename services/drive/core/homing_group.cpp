@@ -23,7 +23,7 @@ double search_travel(const machine::AxisInfo& axis, const AxisLimits& limits) {
 }  // namespace
 
 void HomingGroup::gather(std::uint16_t channel, std::size_t column, GantrySlaves& slaves,
-                          const std::vector<double>& command) {
+                         const std::vector<double>& command) {
   column_ = column;
   channel_ = channel;
   members_ = {{column, 1, command[column]}};
@@ -35,7 +35,7 @@ void HomingGroup::gather(std::uint16_t channel, std::size_t column, GantrySlaves
 }
 
 HomingGroup::Start HomingGroup::start(const machine::AxisInfo& axis, const std::vector<AxisLimits>& limits,
-                                        const std::vector<double>& command) {
+                                      const std::vector<double>& command, double speed) {
   HomingCycle::Settings settings;
   settings.direction = 0;
   const auto& master = limits[column_];
@@ -58,6 +58,10 @@ HomingGroup::Start HomingGroup::start(const machine::AxisInfo& axis, const std::
   }
   if (settings.direction == 0) return Start::nothing;
   if (contrary) return Start::contrary;
+  if (speed > 0) {
+    settings.search = std::min(settings.search, speed);
+    settings.creep = std::min(settings.creep, settings.search);
+  }
   // Away from the switch and towards it at most.
   settings.seconds = 2 * settings.travel / settings.search + slow_share * settings.travel / settings.creep;
   homing_.start(settings, command[column_]);
@@ -65,7 +69,7 @@ HomingGroup::Start HomingGroup::start(const machine::AxisInfo& axis, const std::
 }
 
 HomingCycle::Signals HomingGroup::signals(const std::vector<AxisLimits>& limits,
-                                      const std::vector<AxisStatus>& status) {
+                                          const std::vector<AxisStatus>& status) {
   HomingCycle::Signals all{false, true, true};
   for (auto& member : members_) {
     const auto& l = limits[member.column];
@@ -87,8 +91,9 @@ HomingCycle::Signals HomingGroup::signals(const std::vector<AxisLimits>& limits,
   return all;
 }
 
-HomingCycle::State HomingGroup::step(const std::vector<AxisLimits>& limits, const std::vector<AxisStatus>& status,
-                                 double period, std::vector<double>& command) {
+HomingCycle::State HomingGroup::step(const std::vector<AxisLimits>& limits,
+                                     const std::vector<AxisStatus>& status, double period,
+                                     std::vector<double>& command) {
   const double position = homing_.step_together(signals(limits, status), period);
   const double moved = position - members_.front().from;
   for (auto& member : members_) {
@@ -102,7 +107,7 @@ HomingCycle::State HomingGroup::step(const std::vector<AxisLimits>& limits, cons
 }
 
 std::optional<double> HomingGroup::shift(const Member& member, const AxisLimits& limits,
-                                          const AxisStatus& status, double command) {
+                                         const AxisStatus& status, double command) {
   if (limits.homing_direction != 0)
     return limits.reference + (limits.homing_marks == 2 ? status.scale_shift : -member.latch);
   if (status.homed) return std::nullopt;

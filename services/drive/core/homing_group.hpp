@@ -44,14 +44,14 @@ class HomingGroup {
   /// moves with it is not known any longer. Not cyclic.
   void gather(std::uint16_t channel, std::size_t column, GantrySlaves& slaves,
               const std::vector<double>& command);
-  /// `limits` of all axes. Not cyclic.
+  /// `limits` of all axes. `speed` mm/s or deg/s makes the search slower; 0 does not. Not cyclic.
   Start start(const machine::AxisInfo& axis, const std::vector<AxisLimits>& limits,
-              const std::vector<double>& command);
+              const std::vector<double>& command, double speed = 0);
   /// Brakes and ends as failed.
   void abort() { homing_.abort(); }
   /// One period of `period` s: the setpoints of its axes in `command`. Cyclic.
   HomingCycle::State step(const std::vector<AxisLimits>& limits, const std::vector<AxisStatus>& status,
-                     double period, std::vector<double>& command);
+                          double period, std::vector<double>& command);
   /// Whose reference is found or needs no search; until end().
   const std::vector<Member>& members() const { return members_; }
   /// By what the positions of a member become greater; none when it has its reference.
@@ -61,6 +61,8 @@ class HomingGroup {
   std::string failure(const machine::AxisInfo& axis, const AxisLimits& limits) const;
   void end() { members_.clear(); }
 
+  /// The axis moves off its home switch, before the search.
+  bool leaves_switch() const { return homing_.leaves_switch(); }
   std::size_t column() const { return column_; }
   std::uint16_t channel() const { return channel_; }
 

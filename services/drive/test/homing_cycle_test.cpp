@@ -12,6 +12,7 @@
 
 namespace trunnion::drive::homing_test {
 
+using idl::stream::ReferenceSearch;
 using idl::stream::StreamRequestKind;
 namespace {
 
@@ -144,6 +145,11 @@ struct HomedAxis : ::testing::Test {
     core.fill(feedback);
     return feedback.position[0];
   }
+  ReferenceSearch search() {
+    idl::stream::Feedback feedback;
+    core.fill(feedback);
+    return feedback.channels.at(0).search;
+  }
   const double switch_edge;
   std::uint32_t number = 0;
 };
@@ -165,6 +171,32 @@ TEST_F(HomedAxis, FindsItsReferenceOnDemandAndIsReadyForTheStreamAfterwards) {
   EXPECT_TRUE(core.any_active());
 }
 
+// 10 mm/s in place of its own 50: after 0.2 s it has gone about 2 mm of the 5, and not 10.
+TEST_F(HomedAxis, ADemandMayMakeTheSearchSlower) {
+  core.request({0, ++number, StreamRequestKind::HOME, 0, 0, 10});
+  for (int i = 0; i < 200; ++i) core.step();
+  EXPECT_NEAR(core.commands()[0], 2, 0.1);
+  EXPECT_EQ(search(), ReferenceSearch::SEARCHES);
+  run();
+  EXPECT_EQ(search(), ReferenceSearch::REFERENCE_FOUND);
+  EXPECT_TRUE(core.take_events().empty());
+}
+
+TEST_F(HomedAxis, TheChannelIsToldHowItsSearchGoes) {
+  EXPECT_EQ(search(), ReferenceSearch::NO_SEARCH);
+  request(StreamRequestKind::HOME, 0);
+  EXPECT_EQ(search(), ReferenceSearch::SEARCHES);
+  run();
+  EXPECT_EQ(search(), ReferenceSearch::REFERENCE_FOUND);
+  // It stands on its switch now.
+  request(StreamRequestKind::HOME, 0);
+  core.step();
+  EXPECT_EQ(search(), ReferenceSearch::MOVES_OFF_SWITCH);
+  request(StreamRequestKind::LEAVE, 0);
+  run();
+  EXPECT_EQ(search(), ReferenceSearch::SEARCH_FAILED);
+}
+
 TEST_F(HomedAxis, AnEmergencyStopEndsTheSearchAndSwitchesTheAxisOff) {
   request(StreamRequestKind::HOME, 0);
   for (int i = 0; i < 20; ++i) core.step();
@@ -177,14 +209,14 @@ TEST_F(HomedAxis, AnEmergencyStopEndsTheSearchAndSwitchesTheAxisOff) {
 // limits.
 struct DeadSwitch : HomedAxis {
   DeadSwitch() : HomedAxis(5000) {}
-  void search(int periods) {
+  void search_for(int periods) {
     request(StreamRequestKind::HOME, 0);
     for (int i = 0; i < periods; ++i) core.step();
   }
 };
 
 TEST_F(DeadSwitch, ALeaveOfItsChannelBrakesTheAxisAndEndsTheSearch) {
-  search(1000);
+  search_for(1000);
   const double at = core.commands()[0];
   EXPECT_GT(at, 40) << "50 mm/s for a second";
   request(StreamRequestKind::LEAVE, 0);
@@ -200,14 +232,14 @@ TEST_F(DeadSwitch, ALeaveOfItsChannelBrakesTheAxisAndEndsTheSearch) {
 }
 
 TEST_F(DeadSwitch, ALeaveOfAnotherChannelDoesNot) {
-  search(100);
+  search_for(100);
   request(StreamRequestKind::LEAVE, 0, 1);
   for (int i = 0; i < 200; ++i) core.step();
   EXPECT_NEAR(core.commands()[0], 50 * 0.3 - 0.417, 0.06) << "50 mm/s for 0.3 s, less the acceleration";
 }
 
 TEST_F(DeadSwitch, AStopForAnAlarmIsNoMissingSwitch) {
-  search(100);
+  search_for(100);
   core.stop();
   run();
   EXPECT_EQ(core.mode(), Mode::FOLLOWING);
@@ -215,7 +247,7 @@ TEST_F(DeadSwitch, AStopForAnAlarmIsNoMissingSwitch) {
 }
 
 TEST_F(DeadSwitch, TheLongestTravelIsAnAlarmThatSaysWhereAndWhatToDo) {
-  search(1);
+  search_for(1);
   run();
   EXPECT_NEAR(core.commands()[0], 1100 + 0.417, 0.06);
   const auto events = core.take_events();
@@ -227,7 +259,7 @@ TEST_F(DeadSwitch, TheLongestTravelIsAnAlarmThatSaysWhereAndWhatToDo) {
 }
 
 TEST_F(DeadSwitch, AContinuedDriveEndsTheSearchOfTheSameChannel) {
-  search(100);
+  search_for(100);
   DriveCore other{std::make_unique<SimulatedHardware>()};
   other.configure(parameters(), true);
   other.continue_from(core.explicit_state());

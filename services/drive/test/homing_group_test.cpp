@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gantry_bench.hpp"
 
 namespace trunnion::drive {
@@ -57,6 +59,23 @@ TEST(HomingGroup, ASlaveMovesWithItsMasterAndFindsItsOwnEdge) {
     EXPECT_NEAR(*shift, member.column == 1 ? 500 - 30 : 500 - 40.5, 0.01);
   }
   EXPECT_EQ(gantry.command[0], 0) << "no member";
+}
+
+// Their own speed stays, whatever a demand asks for above it.
+TEST(HomingGroup, ADemandMakesTheSearchSlowerAndNeverFaster) {
+  for (const double speed : {1e6, 0.0, 2.0}) {
+    SearchedGantry gantry;
+    gantry.limits[1].homing_direction = gantry.limits[2].homing_direction = 1;
+    gantry.search.gather(4, 1, gantry.slaves, gantry.command);
+    ASSERT_EQ(gantry.search.start({1, "Y1", machine::axis_type_linear}, gantry.limits, gantry.command, speed),
+              HomingGroup::Start::moves);
+    for (int i = 0; i < 500; ++i) gantry.search.step(gantry.limits, gantry.status, 0.001, gantry.command);
+    const double before = gantry.command[1];
+    gantry.search.step(gantry.limits, gantry.status, 0.001, gantry.command);
+    const auto &master = gantry.limits[1], &slave = gantry.limits[2];
+    const double own = std::min({master.homing_search, master.velocity, slave.homing_search, slave.velocity});
+    EXPECT_NEAR((gantry.command[1] - before) / 0.001, speed == 2.0 ? 2.0 : own, 1e-6) << speed;
+  }
 }
 
 TEST(HomingGroup, RefusesOppositeDirections) {

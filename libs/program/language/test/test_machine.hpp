@@ -228,8 +228,8 @@ struct SlowSource : TextSource {
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid", "line", "arc",  "dwell", "T",     "S",       "M",
-                                          "frame", "end",  "skip", "tap",   "table", "message", "cycle"};
+  static constexpr const char* kinds[] = {"rapid", "line", "arc", "dwell", "T",       "S",     "M",   "frame",
+                                          "end",   "skip", "tap", "table", "message", "cycle", "home"};
   const auto number = [](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
@@ -289,6 +289,11 @@ inline std::string brief(const Command& command) {
       } else {
         text += " " + number(command.value);
       }
+      break;
+    case CommandKind::home:
+      text += std::to_string(command.number);
+      values();
+      if (command.value != 0) text += " F" + number(command.value);
       break;
     case CommandKind::message:
     case CommandKind::cycle:

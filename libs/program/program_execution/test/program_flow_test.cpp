@@ -321,6 +321,57 @@ TEST_F(Flow, ASkipMoveIsPushedByTheCallerAndItsResultComesBeforeTheNextBlock) {
   EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::not_resumable));
 }
 
+// The reference position is 0, and the drive has found X at 3.25.
+TEST_F(Flow, ASearchForReferencesEndsWhereTheDriveSaysAndARestartPassesOverIt) {
+  const std::string program = "G90 F6000\nG1 X10\nG28.2 X0\nG91 G1 X1\nM30\n";
+  start(program);
+  ASSERT_EQ(run(), FlowState::command);
+  ASSERT_EQ(flow.pending().kind, CommandKind::home);
+  EXPECT_EQ(flow.pending().number, 1u);
+  trajectory->start({3.25}, language::Transformation::none, 0);
+  flow.home_ended({3.25});
+  ASSERT_EQ(run(), FlowState::command);
+  EXPECT_EQ(flow.pending().kind, CommandKind::end);
+  EXPECT_NEAR(x(), 4.25, 1e-9);
+
+  // Command 1 is the line to 10, 2 the search, 3 the line by 1: half of it is left.
+  Entry entry;
+  entry.restart = {3, 0.5, {3.75}};
+  start(program, entry);
+  ASSERT_EQ(run(), FlowState::command);
+  EXPECT_EQ(flow.pending().kind, CommandKind::end);
+  EXPECT_NEAR(x(), 4.25, 1e-9);
+  ASSERT_EQ(moves.size(), 1u);
+}
+
+TEST_F(Flow, AStartFromALineBehindASearchTakesTheReferencePositions) {
+  Entry entry;
+  entry.line = 3;
+  start("G90 F6000\nG28.2 X0 M9\nG91 G1 X1\nM30\n", entry);
+  ASSERT_EQ(run(), FlowState::found);
+  EXPECT_EQ(flow.position()[language::X], 0);
+  EXPECT_EQ(flow.skips().size(), 1u) << "a restart reads it again";
+}
+
+TEST_F(Flow, WithoutReferencesNothingMovesButFunctionsAndTheSearchDo) {
+  flow.set_without_reference("Y, Z");
+  start("M8\nG28.2 Y0 Z0\nG0 X1\n");
+  ASSERT_EQ(run(), FlowState::command);
+  flow.finish_pending();
+  ASSERT_EQ(run(), FlowState::command);
+  ASSERT_EQ(flow.pending().kind, CommandKind::home);
+  flow.home_ended({});
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::axes_without_reference));
+  EXPECT_EQ(flow.alarm_text(), "3: axes without a reference: Y, Z. Home them with G28.2, or in mode REF");
+  EXPECT_TRUE(moves.empty());
+
+  flow.set_without_reference("");
+  start("G0 X1\n");
+  EXPECT_EQ(run(), FlowState::end);
+  EXPECT_EQ(moves.size(), 1u);
+}
+
 TEST_F(Flow, ACalledCycleNeedsTheAxesAtRestAndKeepsItsPlaceAndItsVariables) {
   const std::string program =
       "G90 F6000\nG1 X10\nG65 P9010 A3 B4\nG1 X[20+#3100]\nM30\nO9010\n#3100=12\nM99\n";
