@@ -30,6 +30,16 @@ bool is_path(CommandKind kind) {
   return kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc;
 }
 
+/// What turns the spindle or changes its tool: not on axes whose place is unknown. Clamps and coolant may be
+/// needed for the search of the references.
+bool needs_references(const language::Command& command) {
+  constexpr std::uint32_t clockwise = 3, counterclockwise = 4, tool_change = 6, orientation = 19;
+  if (command.kind == CommandKind::tool) return true;
+  return command.kind == CommandKind::auxiliary &&
+         (command.number == clockwise || command.number == counterclockwise ||
+          command.number == tool_change || command.number == orientation);
+}
+
 }  // namespace
 
 void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, const AxisValues& position,
@@ -98,9 +108,7 @@ std::string ProgramFlow::travel_error(const AxisValues& from) {
 
 FlowState ProgramFlow::push_move() {
   // The drive gives the stream no place before every axis has its reference.
-  if (!without_reference_.empty())
-    return fail(language::AlarmNumber::axes_without_reference,
-                "axes without a reference: " + without_reference_ + ". Home them with G28.2, or in mode REF");
+  if (!without_reference_.empty()) return fail_without_reference();
   const auto& from = motion_->end_position();
   if (command_.kind != CommandKind::dwell) {
     if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
@@ -159,6 +167,11 @@ void ProgramFlow::refuse_pending(language::AlarmNumber number) { fail(number); }
 
 FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text) {
   return fail(definition_of(number), place(command_.program, command_.line) + ": " + std::string(text));
+}
+
+FlowState ProgramFlow::fail_without_reference() {
+  return fail(language::AlarmNumber::axes_without_reference,
+              "axes without a reference: " + without_reference_ + ". Home them with G28.2, or in mode REF");
 }
 
 // A restart behind it finds the axes as they have been homed since.
@@ -310,6 +323,7 @@ FlowState ProgramFlow::fill(bool single_block) {
     if (!move || stroke != tapping_) {
       if (command_.kind == CommandKind::skip || stroke) executing_ = command_.modal;
       motion_->finish();
+      if (!without_reference_.empty() && needs_references(command_)) return fail_without_reference();
       return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;
     }
     const auto state = push_move();

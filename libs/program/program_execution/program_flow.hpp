@@ -74,7 +74,8 @@ class ProgramFlow {
   /// kept. Nothing when there are none.
   void set_offset(const std::optional<AxisValues>& offset) { offset_ = offset; }
 
-  /// Names of the axes that have no reference: a move is then an alarm. Empty: all have theirs.
+  /// Names of the axes that have no reference: a move, a turn of the spindle and a tool change are then
+  /// alarms. Empty: all have theirs.
   void set_without_reference(std::string_view axes) { without_reference_.assign(axes); }
   /// As Interpreter::set_homed().
   void set_homed(std::optional<std::uint16_t> axes) { interpreter_.set_homed(axes); }
@@ -173,6 +174,7 @@ class ProgramFlow {
   /// Empty, or the line of the axis that the pending move would take out of its travel.
   std::string travel_error(const AxisValues& from);
   FlowState push_move();
+  FlowState fail_without_reference();
   /// Full: motion may have the pending move. Waiting: the guard has not finished. Else alarm.
   FlowState ask_guard(const AxisValues& from);
   FlowState take_step(language::Step step);

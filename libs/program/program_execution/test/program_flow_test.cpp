@@ -365,6 +365,11 @@ TEST_F(Flow, WithoutReferencesNothingMovesButFunctionsAndTheSearchDo) {
   EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::axes_without_reference));
   EXPECT_EQ(flow.alarm_text(), "3: axes without a reference: Y, Z. Home them with G28.2, or in mode REF");
   EXPECT_TRUE(moves.empty());
+  for (const auto* function : {"M3\n", "M4\n", "M6\n", "M19\n", "T1\n"}) {
+    start(function);
+    EXPECT_EQ(run(), FlowState::alarm) << function;
+    EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::axes_without_reference)) << function;
+  }
 
   flow.set_without_reference("");
   start("G0 X1\n");
