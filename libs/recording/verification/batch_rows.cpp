@@ -130,6 +130,7 @@ void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) co
     if (row >= batch.spindle.size()) return;
     out.push_back({"spindle_axis", batch.spindle_axis});
     out.push_back({"spindle", batch.spindle[row]});
+    if (batch.follows_spindle) out.push_back({"follows_spindle", true});
   };
   const auto indexed = [&](const char* name, const auto& values, std::size_t first, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)

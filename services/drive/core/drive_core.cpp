@@ -99,6 +99,7 @@ Memory DriveCore::memory() const {
 void DriveCore::leave(ChannelStream& channel) {
   channel.active = channel.ending = channel.resume = false;
   channel.release_spindle(spindles_);
+  channel.thread.clear();
   // The others go on from between two cycles: its axes stay where they are.
   for (const int column : channel.columns)
     if (column >= 0) target_[static_cast<std::size_t>(column)] = command_[static_cast<std::size_t>(column)];
@@ -253,6 +254,9 @@ void DriveCore::follow_supply() {
 // here.
 bool DriveCore::pass_cycle() {
   if (supply().cycles == 0) return false;
+  const bool whole = mode_ == Mode::FOLLOWING && rate_.whole();
+  streams_.follow_spindles({next_, lead_, dt_, static_cast<double>(rows_.pending() + 1), whole},
+                           status_.spindles, spindles_, axes_, limits_);
   target_of(next_, scratch_);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     velocity_[i] = scratch_[i] - target_[i];
@@ -330,7 +334,8 @@ void DriveCore::follow() {
     moving = std::max(moving, std::abs(velocity_[i]) / (limits_[i].acceleration * dt_ * dt_));
   // The stop leads through the next setpoints, where another axis may be the fastest.
   moving = std::max(moving, stop_periods(std::min(supply().cycles, lead_ / 2)));
-  reserve_ = std::min<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(moving / 2)), lead_ / 2);
+  reserve_ = std::min<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(moving / 2)),
+                                     lead_ / 2 - streams_.ahead(lead_));
   if (!any_active()) {
     settle_ = virtual_time_ ? settling_periods : 0;
     reserve_ = 0;

@@ -31,7 +31,9 @@ bool DriveCore::enough(const StreamSupply& s) const {
   return s.cycles > 0 && (s.ends || s.cycles > reserve_);
 }
 
-bool DriveCore::prefilled(const StreamSupply& s) const { return s.ends || s.cycles >= prefill_; }
+bool DriveCore::prefilled(const StreamSupply& s) const {
+  return s.ends || s.cycles + streams_.ahead(lead_) >= prefill_;
+}
 
 bool DriveCore::waiting() const { return mode_ == Mode::FOLLOWING && any_active() && !enough(supply()); }
 

@@ -229,6 +229,9 @@ TEST(Csv, HasTheSetpointOfACoupledSpindle) {
   ASSERT_EQ(lines.size(), 1 + std::size_t{batch_cycles});
   EXPECT_TRUE(lines[0].ends_with(",setpoint.W,spindle_axis,spindle,time_utc")) << lines[0];
   EXPECT_TRUE(lines[1].ends_with(",4,0.25,1970-01-01T00:00:00.000000007Z")) << lines[1];
+  tapping.follows_spindle = true;
+  const auto thread = csv_lines(stored(topics::path_batch, tapping, 7));
+  EXPECT_TRUE(thread[0].ends_with(",spindle_axis,spindle,follows_spindle,time_utc")) << thread[0];
 }
 
 }  // namespace
