@@ -25,7 +25,7 @@ enum class SynchronizationProblem : std::uint8_t {
   not_homed,
   no_acceleration,  ///< parameters that cannot be used (alarm 182)
   follows_path,     ///< the angles of a stream (tapping)
-  lost              ///< more than half a turn off; the slave goes on following
+  lost              ///< more than half a turn off; the slave continues to follow
 };
 
 /// Spindles are named by their numbers from 0, the columns of the machine's spindles.
