@@ -229,6 +229,7 @@ void DriveService::drain() {
     core_.set_spindle_speed(plc_.spindle_speed);
     core_.set_spindle_gears(plc_.spindle_gear);
     core_.set_spindle_orientation(plc_.spindle_orient, plc_.spindle_angle);
+    core_.set_spindle_couplings(plc_.spindle_couplings);
     core_.set_probe(plc_.probe_on);
     changed_ = true;
   }

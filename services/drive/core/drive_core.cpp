@@ -356,6 +356,7 @@ void DriveCore::exchange() {
     const double acceleration = row_.controlled ? (velocity - axis.velocity) / dt_ : 0;
     axis = {command_[i], velocity, acceleration};
   }
+  spindles_.run_down(!enable_.granted());
   spindles_.step(status_.spindles, row_.controlled, row_.spindles);
   spindles_.report(status_.spindles, events_);
   if (testing() && (mode_ == Mode::OFF || mode_ == Mode::BRAKING || mode_ == Mode::HELD))

@@ -69,6 +69,10 @@ class DriveCore {
   }
   /// Gears that are engaged, from 1; 0 or missing = the spindle has none.
   void set_spindle_gears(const std::vector<std::uint8_t>& gear) { spindles_.engage_gears(gear); }
+  /// Spindles that follow others: all that the PLC requests now.
+  void set_spindle_couplings(const std::vector<idl::plc::SpindleCoupling>& couplings) {
+    spindles_.couple(couplings);
+  }
 
   /// With the probe on, a rising edge of skip input 1 outside a skip move stops the axes and is an alarm.
   void set_probe(bool on) { row_.probe_on = on; }

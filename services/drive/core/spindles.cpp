@@ -28,6 +28,7 @@ void Spindles::configure(const machine::Parameters& parameters, double period) {
     gears_[i].configure(gear_speeds(parameters, number));
     windows_[i] = parameters.get(parameter::speed_window, number) / 100;
   }
+  synchronized_.configure(parameters, axes_, period);
 }
 
 void Spindles::demand_speeds(const std::vector<double>& speed) {
@@ -46,6 +47,19 @@ void Spindles::engage_gears(const std::vector<std::uint8_t>& gear) {
     gears_[i].engage(i < gear.size() ? gear[i] : std::uint8_t{0});
 }
 
+void Spindles::couple(const std::vector<idl::plc::SpindleCoupling>& couplings) {
+  const bool before = synchronized_.any();
+  synchronized_.couple(couplings);
+  if (before || synchronized_.any()) limit_orientations();
+}
+
+// A master turns to its angle as the slowest spindle that follows it can.
+void Spindles::limit_orientations() {
+  for (std::size_t i = 0; i < orientations_.size(); ++i)
+    orientations_[i].limit_acceleration(
+        synchronized_.lowest_acceleration(i, orientations_[i].approach_speed()));
+}
+
 void Spindles::lead_on(double cycles) {
   for (auto& coupling : couplings_) coupling.lead_on(cycles);
 }
@@ -56,16 +70,20 @@ double Spindles::commanded_speed(std::size_t i) const {
 
 void Spindles::step(const std::vector<SpindleStatus>& status, bool controlled,
                     std::vector<SpindleSetpoint>& out) {
+  synchronized_.judge(couplings_, status, controlled);
+  if (synchronized_.any()) limit_orientations();
   for (std::size_t i = 0; i < couplings_.size(); ++i) {
     auto setpoint = couplings_[i].setpoint();
     setpoint.speed = commanded_speed(i);
-    setpoint = orientations_[i].step(setpoint, status[i], controlled);
-    const bool ramps = controlled && !setpoint.coupled;
+    const bool follows = synchronized_.follows(i);
+    setpoint = orientations_[i].step(setpoint, status[i], controlled && !follows);
+    const bool ramps = controlled && !setpoint.coupled && !follows && !synchronized_.leads(i);
     const double reference = ramps_[i].step(ramps ? setpoint.speed : status[i].speed, ramps);
     if (ramps) setpoint.speed = reference;
     setpoint.gear = gears_[i].in_force();
     out[i] = setpoint;
   }
+  synchronized_.step(status, out);
 }
 
 void Spindles::fill(const std::vector<SpindleStatus>& status, const std::vector<SpindleSetpoint>& row,
@@ -107,15 +125,8 @@ SpindleState Spindles::state(std::size_t i, const SpindleStatus& status, const S
   state.homed = status.homed;
   state.gear = gears_[i].in_force();
   state.torque = status.torque;
-  fill_synchronization(i, state);
+  synchronized_.fill(state, i);
   return state;
-}
-
-// Of the synchronization with another spindle: master, error, correction, and its conditions.
-void Spindles::fill_synchronization(std::size_t /*column*/, SpindleState& state) const {
-  state.master = -1;
-  state.synchronization_error = 0;
-  state.correction = 0;
 }
 
 void Spindles::report_parameters(std::vector<DriveEvent>& events) const {
@@ -149,6 +160,7 @@ void Spindles::report(const std::vector<SpindleStatus>& status, std::vector<Driv
                   angle, machine::number_text(parameter::orientation_window.number(number)).c_str());
     events.push_back({&alarm::orientation_lost, number, text});
   }
+  for (const auto& finding : synchronized_.findings()) events.push_back(event_of(finding, axes_));
 }
 
 void Spindles::acknowledge() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The spindles of the machine. Each has the speed that the PLC demands, within its gear and by its ramp,
-// turns to its orientation angle and is held there, or follows an angle of the stream.
+// turns to its orientation angle and is held there, follows an angle of the stream, or another spindle.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include "spindle_gear.hpp"
 #include "spindle_orientation.hpp"
 #include "spindle_ramp.hpp"
+#include "synchronized_spindles.hpp"
 
 namespace trunnion::drive {
 
@@ -34,6 +35,12 @@ class Spindles {
   void demand_orientations(const std::vector<std::uint8_t>& orient, const std::vector<double>& angle = {});
   /// From 1; 0, or of those that `gear` does not have: none.
   void engage_gears(const std::vector<std::uint8_t>& gear);
+
+  /// Spindles that follow others: all that the PLC requests now.
+  void couple(const std::vector<idl::plc::SpindleCoupling>& couplings);
+  /// Masters of synchronized spindles slow down to a standstill whatever they are ordered.
+  void run_down(bool on) { synchronized_.run_down(on); }
+  const SynchronizedSpindles& synchronization() const { return synchronized_; }
 
   SpindleCoupling& coupling(int column) { return couplings_[static_cast<std::size_t>(column)]; }
   /// Coupled spindles continue at the speed of their last setpoint for `cycles`.
@@ -64,6 +71,7 @@ class Spindles {
     if (!std::is_const_v<Self> || std::any_of(self.gears_.begin(), self.gears_.end(),
                                               [](const auto& gear) { return gear.engaged() != 0; }))
       visit("gears", self.gears_);
+    if (!std::is_const_v<Self> || self.synchronized_.any()) visit("synchronization", self.synchronized_);
   }
 
  private:
@@ -71,13 +79,14 @@ class Spindles {
   double commanded_speed(std::size_t column) const;
   idl::stream::SpindleState state(std::size_t column, const SpindleStatus& status, const SpindleSetpoint& row,
                                   bool controlled) const;
-  void fill_synchronization(std::size_t column, idl::stream::SpindleState& state) const;
+  void limit_orientations();
 
   std::vector<machine::AxisInfo> axes_;
   std::vector<SpindleCoupling> couplings_;
   std::vector<SpindleOrientation> orientations_;
   std::vector<SpindleRamp> ramps_;
   std::vector<SpindleGear> gears_;
+  SynchronizedSpindles synchronized_;
   std::vector<double> windows_;  // share of the commanded speed
   double period_ = 0.001;
 };
