@@ -96,6 +96,7 @@ class Lowering {
   Variable* own_variable(const Expression& name) const;
   bool is_inherited(const Variable& variable) const;
   std::string hidden(const Variable& variable) const;
+  std::string internal(const std::string& text, const PouDeclaration& of) const;
   std::string scope_problem(const Expression& name) const;
 
   // pointers

@@ -83,8 +83,10 @@ void Lowering::note(const Expression& e, const Value& value, Reference access) {
       unit_.references.push_back(std::move(read));
     }
     access.variable = own_variable(root);
-    if (access.variable == nullptr || access.variable->section == VariableSection::external)
+    if (access.variable == nullptr)
       access.variable = unit_.find_global(root.name);
+    else if (access.variable->section == VariableSection::external)
+      access.variable = access.variable->external;
   } else if (root.kind != Expression::Kind::direct) {
     return;
   }
