@@ -85,6 +85,7 @@ class ChannelSetup : public language::Environment {
   std::uint16_t axes() const override { return mask_; }
   std::uint16_t spindle_axes() const override { return spindle_mask_; }
   double highest_spindle_speed() const override { return tapping_spindles_[0].highest_speed; }
+  double highest_feed(std::size_t axis) const override { return limits_.axes[axis].velocity * 60; }
   double radius_deviation() const override { return radius_deviation_; }
   language::TextSource* subprogram(std::string_view name) override {
     auto* stored = resolve ? resolve(name) : nullptr;

@@ -29,6 +29,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     settings.intermediate.reset();
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
+    state.thread_lead = 0;
   }
   state.needs_position = false;
   context_.tables.load(context_.environment);

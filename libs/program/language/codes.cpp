@@ -73,6 +73,16 @@ constexpr std::array rows = {
     GCode{310, Group::one_block, AxisWords::taken,
           run<&BlockHandlers::positioning, &Positioning::move_until_skip>,
           "line that ends when skip input L (1 without L) comes", Origin::hnc, "0.2", "G31 L1 X1 F100"},
+    GCode{320, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 33>,
+          "as G33", Origin::fanuc, "0.4", "S100 M3\nG32 Z-1 F0.5"},
+    GCode{330, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 33>,
+          "thread: line that follows the turning spindle; F lead per revolution of the axis that goes "
+          "farthest, Q "
+          "angle of the start behind the index mark in degrees",
+          Origin::iso, "0.4", "S100 M3\nG33 Z-1 F0.5 Q180"},
+    GCode{340, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 34>,
+          "thread with variable lead: as G33, K change of the lead in each revolution", Origin::iso, "0.4",
+          "S100 M3\nG34 Z-1 F0.5 K0.1"},
     GCode{400, Group::cutter_compensation, AxisWords::move,
           run<&BlockHandlers::tool, &ToolCodes::set_cutter_side, CutterSide::off>,
           "cutter radius compensation off; I J K: the direction in which the contour would continue",

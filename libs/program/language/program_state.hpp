@@ -41,6 +41,7 @@ struct BlockState {
   bool parameter_input = false;   ///< between G10 L50 and G11
   bool swing_due = false;         ///< G68.1..3 was the block before
   bool needs_position = false;    ///< a skip move (G31) was given out
+  double thread_lead = 0;         ///< F of G33 and G34, mm per revolution; 0 = none yet
   SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
   std::uint8_t settings_place = 0;
 };

@@ -140,6 +140,7 @@ void ProgramReader::pass(const Command& command, const Command& move) {
     case CommandKind::arc:
     case CommandKind::skip:
     case CommandKind::tap:
+    case CommandKind::thread:
     case CommandKind::transformation:
       from_ = command.target;
       break;
