@@ -76,9 +76,8 @@ constexpr std::array rows = {
     GCode{320, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 33>,
           "as G33", Origin::fanuc, "0.4", "S100 M3\nG32 Z-1 F0.5"},
     GCode{330, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 33>,
-          "thread: line that follows the turning spindle; F lead per revolution of the axis that goes "
-          "farthest, Q "
-          "angle of the start behind the index mark in degrees",
+          "thread: line that follows the turning spindle; F lead in a revolution of the axis that goes "
+          "farthest, Q angle of the start behind the index mark in degrees",
           Origin::iso, "0.4", "S100 M3\nG33 Z-1 F0.5 Q180"},
     GCode{340, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 34>,
           "thread with variable lead: as G33, K change of the lead in each revolution", Origin::iso, "0.4",

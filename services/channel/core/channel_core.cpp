@@ -98,6 +98,7 @@ void ChannelCore::keep_variables() {
 }
 
 AxisValues ChannelCore::machine_position() const {
+  if (thread_.cutting()) return path().machine_of(thread_.position());
   if (!states_.is(Activity::handwheel)) return path().machine_position();
   auto position = machine_start_;
   for (std::size_t i = 0; i < position.size(); ++i) position[i] += manual_.wheel()[i];
@@ -132,6 +133,7 @@ void ChannelCore::stop_activity() {
   if (states_.busy() && stream_.idle() && !link().needs_epoch() && moved) machine_start_ = machine_position();
   skip_.end();
   finish_tapping();
+  finish_thread();
   if (stream_.moving() || link().state() == LinkState::requested) stream_.link().leave();
   keep_variables();
   if (states_.is(Activity::program) && preparing == nullptr) states_.forget_suspended();
@@ -150,6 +152,7 @@ void ChannelCore::finish(bool program_end) {
   const bool reset = states_.resetting();
   skip_.end();
   finish_tapping();
+  finish_thread();
   machine_start_ = machine_position();
   manual_.end_wheel();
   bodies_.forget_jog();

@@ -469,7 +469,7 @@ TEST_F(ThreadFlow, ARefusedLegIsAnAlarmAtItsLine) {
   flow.fill(false);
   flow.refuse_thread(AlarmNumber::thread_too_short, 1);
   EXPECT_EQ(run(), FlowState::alarm);
-  EXPECT_EQ(flow.alarm_text().rfind("3: thread is shorter", 0), 0u) << flow.alarm_text();
+  EXPECT_EQ(flow.alarm_text().rfind("3: thread is too short", 0), 0u) << flow.alarm_text();
   EXPECT_EQ(flow.placed_alarm().line, 3u);
 }
 
