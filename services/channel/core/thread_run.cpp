@@ -70,15 +70,16 @@ bool ThreadRun::at_speed(const Prediction& prediction) const {
   return share >= least_share && share <= ThreadPath::speed_margin;
 }
 
+std::uint64_t ThreadRun::cycles(double seconds) const {
+  return static_cast<std::uint64_t>(std::lround(seconds / spindle_.cycle_seconds));
+}
+
 void ThreadRun::break_off(std::string why) {
   if (broken_.empty()) broken_ = std::move(why);
 }
 
 void ThreadRun::supervise(const Prediction& prediction) {
   const double per_second = prediction.rate / spindle_.cycle_seconds;
-  const auto cycles = [&](double seconds) {
-    return static_cast<std::uint64_t>(std::lround(seconds / spindle_.cycle_seconds));
-  };
   standing_ = std::abs(per_second) < standing_rate ? standing_ + 1 : 0;
   wrong_ = at_speed(prediction) ? 0 : wrong_ + 1;
   if (!broken_.empty()) return;
@@ -102,14 +103,17 @@ ThreadCycle ThreadRun::step(std::uint64_t cycle, bool abandoned, bool held) {
   ThreadCycle out;
   out.position = position_;
   const auto prediction = predict(cycle);
-  if (prediction) supervise(*prediction);
+  if (prediction)
+    supervise(*prediction);
+  else if (cycle > first_ + cycles(standing_seconds))
+    break_off("the drive reports no angles of the spindle");
   if (phase_ == Phase::waiting) {
     ended_ = ended_ || !broken_.empty();
     out.at_rest = abandoned || held || ended_;
     return out;
   }
   if (!prediction) {  // a hole in the feedback
-    break_off("angles of the spindle are missing");
+    break_off("angles of the spindle are missing in the feedback");
     out.angle = angle_;
     out.at_rest = ended_ = true;
     return out;

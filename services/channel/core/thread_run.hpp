@@ -87,6 +87,7 @@ class ThreadRun {
   bool at_speed(const Prediction& prediction) const;
   void supervise(const Prediction& prediction);
   void break_off(std::string why);
+  std::uint64_t cycles(double seconds) const;
 
   Phase phase_ = Phase::none;
   ThreadPath path_;

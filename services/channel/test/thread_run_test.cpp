@@ -143,6 +143,16 @@ TEST_F(ThreadBench, ASpindleThatStandsEndsItAfterASecond) {
   EXPECT_EQ(run.broken(), "the spindle is at rest");
 }
 
+TEST_F(ThreadBench, WithoutAnglesOfTheSpindleItEndsAfterASecond) {
+  begin(steady(0, 0.01));
+  known = 1000000;  // none come
+  go(1000);
+  EXPECT_FALSE(run.ended());
+  go(100);
+  EXPECT_TRUE(run.ended());
+  EXPECT_EQ(run.broken(), "the drive reports no angles of the spindle");
+}
+
 TEST_F(ThreadBench, AHoldBeforeItBeginsStopsAtOnceAndItBeginsAnewAfterwards) {
   begin(steady(0, 0.004));  // 40 %: not at speed
   go(200);
