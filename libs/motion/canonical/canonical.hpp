@@ -120,9 +120,8 @@ enum class CommandKind : std::uint8_t {
   message,  ///< number; the text is the comment of its line
   cycle,    ///< number as written to #3100; nothing further is read before Interpreter::answer()
   thread,   ///< straight move of linear axes that follows the turning spindle (G33, G34): value = lead at its
-            ///< start in mm per revolution of the axis that goes farthest, the first of equal ones;
-           ///< lead_change, start_angle. Threads with no other command and no exact stop between them are one
-           ///< thread
+            ///< start in mm per revolution of the axis that goes farthest, the first of equal ones. Threads
+           ///< with no other command and no exact stop between them are one thread
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.
