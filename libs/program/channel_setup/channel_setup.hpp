@@ -89,6 +89,7 @@ class ChannelSetup : public language::Environment {
   const char* highest_speed_parameter() const override {
     return tapping_spindles_[0].by_gears ? "10a985" : Environment::highest_speed_parameter();
   }
+  double highest_feed(std::size_t axis) const override { return limits_.axes[axis].velocity * 60; }
   double radius_deviation() const override { return radius_deviation_; }
   language::TextSource* subprogram(std::string_view name) override {
     auto* stored = resolve ? resolve(name) : nullptr;

@@ -32,6 +32,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     settings.intermediate.reset();
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
+    state.thread_lead = 0;
   }
   state.needs_position = state.homing = false;
   state.homed = 0;

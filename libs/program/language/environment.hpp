@@ -182,6 +182,11 @@ class Environment {
   virtual double highest_spindle_speed() const { return 0; }
   /// The parameter that limits it.
   virtual const char* highest_speed_parameter() const { return "10a948"; }
+  /// Highest speed of a linear axis at feed in mm/min; 0 = no limit.
+  virtual double highest_feed(std::size_t axis) const {
+    static_cast<void>(axis);
+    return 0;
+  }
   /// Largest difference of an arc's radii at its start and its end in mm (parameter 000011, default 0.1).
   virtual double radius_deviation() const = 0;
   /// The text of a subprogram that is not in the calling text, or nullptr. `name` is O and at least four
