@@ -66,6 +66,9 @@ struct TravelBreach {
   double position = 0;
 };
 
+/// How programs are written (parameter 04c959).
+enum class ProgramDialect : std::uint8_t { iso, num };
+
 inline constexpr std::uint8_t work_offset_count = 54;
 
 /// Everything a program's meaning depends on besides its text. The answers must not change between start()
@@ -76,6 +79,14 @@ class Environment {
   /// Machine coordinates of the zero of work offset `index`: 0 = G54 .. 5 = G59, 6 = G54.1 P1 .. 53 = G54.1
   /// P48; mm and degrees.
   virtual AxisValues work_offset(std::uint8_t index) const = 0;
+  /// Of every program and every line of manual data input of the channel.
+  virtual ProgramDialect program_dialect() const { return ProgramDialect::iso; }
+  /// External parameter `number` of the NUM dialect, in the unit of its row in num_parameters.hpp; nothing
+  /// when the machine does not have it.
+  virtual std::optional<double> external_parameter(std::uint32_t number) const {
+    static_cast<void>(number);
+    return std::nullopt;
+  }
   /// Tool length of table entry `h` (from 1) in mm, or nothing when there is no such entry.
   virtual std::optional<double> tool_length(std::uint16_t h) const = 0;
   /// The whole entry `number` of the tool table, from 1, or nothing when there is none.

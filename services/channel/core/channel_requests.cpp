@@ -120,8 +120,11 @@ void ChannelCore::execute(const language::Command& command) {
       begin_cycle(command);
       return;
     case language::CommandKind::message:
-      event(alarm::program_message, program_name() + ":" + std::to_string(command.line) + ": message " +
-                                        std::to_string(command.number) + ", see the comment of the line");
+      event(alarm::program_message,
+            program_name() + ":" + std::to_string(command.line) +
+                (command.number == language::line_message
+                     ? ": see the text behind $ of the line"
+                     : ": message " + std::to_string(command.number) + ", see the comment of the line"));
       flow().finish_pending();
       return;
     case language::CommandKind::tool:

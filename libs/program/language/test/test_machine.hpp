@@ -43,6 +43,8 @@ struct TestMachine : Environment {
   std::array<canonical::RotaryWay, axis_count> ways{};
   std::optional<MFunctions> functions;  // nothing: every M code may stand
   DwellPoint point = DwellPoint::refused;
+  ProgramDialect dialect = ProgramDialect::iso;
+  std::map<std::uint32_t, double> external;  // parameters of the NUM dialect
 
   AxisValues work_offset(std::uint8_t index) const override {
     if (index < offsets.size()) return offsets.at(index);
@@ -75,6 +77,11 @@ struct TestMachine : Environment {
   CycleSettings cycle_settings() const override { return cycles; }
   const MFunctions* m_functions() const override { return functions ? &*functions : nullptr; }
   DwellPoint dwell_point() const override { return point; }
+  ProgramDialect program_dialect() const override { return dialect; }
+  std::optional<double> external_parameter(std::uint32_t number) const override {
+    const auto found = external.find(number);
+    return found == external.end() ? std::nullopt : std::optional(found->second);
+  }
   /// The table turns a direction d of the part to R1 R2 d, which must be +Z: A -(tilt), C so that d points to
   /// -Y or +Y of the machine; of the two solutions the one with the smaller way of C, or C as chosen.
   std::optional<AxisValues> orient(const Vector3& d, const AxisValues& current,
