@@ -76,7 +76,9 @@ CoupledRun run_and_end(ServoSession& session, const SpindleSyncOptions& test, co
                        double interval) {
   std::string problem;
   try {
-    return run_coupled(session, program, interval);
+    auto run = run_coupled(session, program, interval);
+    if (session.client().newest(topics::plc_outputs).spindle_couplings.empty()) return run;
+    problem = test.off + " does not end the coupling: name the M function of the machine's PLC with --off";
   } catch (const std::exception& e) {
     problem = e.what();
   }
@@ -117,8 +119,7 @@ std::string heading(const SpindleSyncSettings& settings, const machine::AxisInfo
                     const machine::AxisInfo& slave, const SpindleSyncOptions& test) {
   return fmt::format(
       "spindle {} follows {}{}, angle {:g} deg, ordered by {}; window {:g} deg ({}), gain {:g} 1/min/rev "
-      "({}); "
-      "{:g} s recorded after {:g} s",
+      "({}); {:g} s recorded after {:g} s",
       slave.name, master.name, settings.reverse ? " the other way round" : "", settings.angle, test.on,
       settings.window, machine::number_text(parameter::synchronization_window.number(slave.number)),
       settings.gain, machine::number_text(parameter::synchronization_gain.number(slave.number)), test.record,
