@@ -125,6 +125,7 @@ SpindleState Spindles::state(std::size_t i, const SpindleStatus& status, const S
   state.homed = status.homed;
   state.gear = gears_[i].in_force();
   state.torque = status.torque;
+  state.angle = status.angle;
   synchronized_.fill(state, i);
   return state;
 }
