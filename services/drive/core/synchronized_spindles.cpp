@@ -104,6 +104,7 @@ void SynchronizedSpindles::couple(const std::vector<idl::plc::SpindleCoupling>& 
     slave.deferred = keeps(slave);
     if (!slave.deferred) take(slave);
   }
+  if (!any()) forget_masters();
 }
 
 void SynchronizedSpindles::take(Slave& slave) {
@@ -115,14 +116,16 @@ void SynchronizedSpindles::take(Slave& slave) {
   }
   slave.ordered = slave.requested;
   slave.order = slave.request;
-  if (!any()) std::fill(masters_.begin(), masters_.end(), Master{});
 }
+
+void SynchronizedSpindles::forget_masters() { std::fill(masters_.begin(), masters_.end(), Master{}); }
 
 void SynchronizedSpindles::await_rest() {
   for (auto& slave : slaves_) {
     if (slave.deferred) take(slave);
     slave.waits = slave.ordered && !slave.control.active();
   }
+  if (!any()) forget_masters();
 }
 
 bool SynchronizedSpindles::waits(std::size_t spindle) const {
@@ -218,6 +221,7 @@ void SynchronizedSpindles::judge(const std::vector<SpindleCoupling>& streams,
       slave.control.begin(status[i].speed);
     }
   }
+  if (!any()) forget_masters();
 }
 
 double SynchronizedSpindles::lowest_acceleration(std::size_t spindle, double speed) const {

@@ -131,6 +131,7 @@ class SynchronizedSpindles {
                                   const std::vector<SpindleStatus>& status) const;
   bool keeps(const Slave& slave) const { return run_down_ && slave.control.closed(); }
   void take(Slave& slave);
+  void forget_masters();
   bool at_rest(std::size_t slave, const std::vector<SpindleStatus>& status) const;
   bool ramps() const;
   double change(std::size_t master, double speed) const;

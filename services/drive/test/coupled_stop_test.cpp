@@ -209,13 +209,13 @@ TEST(CoupledStop, ADriveContinuesARunDownWithTheSameBits) {
   EXPECT_EQ(bus::text_of(other.core.explicit_state()), bus::text_of(one.core.explicit_state()));
 }
 
-// Spindles whose speeds are given; the master has 200 1/min ordered, of which its ramp makes 2 in a period.
 std::vector<SpindleStatus> turning(double master, double slave) {
   std::vector<SpindleStatus> spindles(2);
   spindles[0].speed = master, spindles[1].speed = slave;
   return spindles;
 }
 
+// Spindles whose speeds are given; the master has 200 1/min ordered, of which its ramp makes 2 in a period.
 struct Given {
   explicit Given(std::vector<SpindleStatus> spindles = {}) {
     hardware->spindle = std::move(spindles);
@@ -323,6 +323,22 @@ TEST(CoupledStop, ARequestThatComesUnderControlBeginsAtSpeed) {
   given.periods(1);
   EXPECT_EQ(given.coupled_with(), 0);
   EXPECT_EQ(given.ordered(0), 898) << "the ramp begins with the speed that the master has";
+}
+
+// 100 1/min of the slave are not the speed of its master: no part holds both.
+TEST(CoupledStop, ASlaveThatIsStillSpeedingUpRunsDownByItself) {
+  Given given(turning(0, 100));
+  given.core.set_spindle_couplings({});
+  given.periods(1);
+  given.core.set_spindle_couplings({following()});
+  given.periods(20);
+  EXPECT_EQ(given.coupled_with(), 0);
+  EXPECT_EQ(given.ordered(0), 40);
+  given.core.set_enables({1, 1}, true);
+  EXPECT_EQ(given.periods_of_the_run_down(), 0);
+  EXPECT_FALSE(given.hardware->newest.enable);
+  EXPECT_EQ(given.coupled_with(), -1);
+  EXPECT_TRUE(given.core.take_events().empty());
 }
 
 TEST(CoupledStop, ANewDriveKeepsSpindlesAtRestThatAreNotHomedUntilTheRequestIsWithdrawn) {
