@@ -69,7 +69,9 @@ TEST_F(ThreadBench, TheToolGoesWithTheAngleThatTheSpindleWillHave) {
   for (std::size_t i = 48; i < cycles.size(); ++i) {
     const double at = 3.7 + 0.01 * static_cast<double>(i);
     ASSERT_NEAR(*cycles[i].angle, at, 1e-9);
-    if (at < 5.25 - 0.451) ASSERT_EQ(cycles[i].position[Z], 0);
+    if (at < 5.25 - 0.451) {
+      ASSERT_EQ(cycles[i].position[Z], 0);
+    }
     if (at < 5.25 + 0.46 || at > 5.25 + 9.54) continue;
     ASSERT_NEAR(cycles[i].position[Z], -2 * (at - 5.25), 1e-8);
     ASSERT_NEAR(cycles[i].speed, 20, 1e-6) << "2 mm ten times a second";
