@@ -13,6 +13,8 @@ namespace {
 /// A helix lower than this (mm) is a circle.
 constexpr double no_height = 1e-9;
 constexpr std::uint32_t most_turns = 9999;
+/// Of the speed of an axis: it must be able to follow a spindle that turns somewhat faster than S.
+constexpr double thread_share = 0.95;
 
 }  // namespace
 
@@ -119,7 +121,7 @@ Fault PathMotion::check_lead(std::uint16_t at, const AxisValues& target, const S
   for (std::size_t axis = 0; axis < axis_count; ++axis) {
     if (is_rotary(axis)) continue;
     const double feed = lead * state_.modal.spindle_speed * (way[axis] / farthest);
-    const double highest = environment_.highest_feed(axis);
+    const double highest = thread_share * environment_.highest_feed(axis);
     if (highest == 0 || feed <= highest) continue;
     FaultDetail& detail = context_.detail;
     detail.number = AlarmNumber::thread_speed;

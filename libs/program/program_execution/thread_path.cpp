@@ -66,6 +66,7 @@ language::Command thread_line(language::Command thread, const AxisValues& from) 
 ThreadPath::Fault ThreadPath::build(const AxisValues& start, std::span<const ThreadLeg> legs, double speed,
                                     bool clockwise, const motion::Limits& limits) {
   origin_ = 0;
+  highest_share_ = speed_margin;
   clockwise_ = clockwise;
   const double rate = speed_margin * speed / 60;  // rev/s
   for (std::size_t axis = 0; axis < start.size(); ++axis) {
@@ -82,9 +83,13 @@ ThreadPath::Fault ThreadPath::build(const AxisValues& start, std::span<const Thr
     piece.start = end_;
     piece.begin = begin;
     const double way = farthest_way(end_, leg.target);
-    for (std::size_t axis = 0; axis < start.size() && way > 0; ++axis)
+    const double last = last_lead(leg.lead, leg.lead_change, way);
+    for (std::size_t axis = 0; axis < start.size() && way > 0; ++axis) {
       piece.direction[axis] = (leg.target[axis] - end_[axis]) / way;
-    piece.revolutions = 2 * way / (leg.lead + last_lead(leg.lead, leg.lead_change, way));
+      const double fastest = std::abs(piece.direction[axis]) * std::max(leg.lead, last) * speed / 60;
+      if (fastest > 0) highest_share_ = std::min(highest_share_, limits.axes[axis].velocity / fastest);
+    }
+    piece.revolutions = 2 * way / (leg.lead + last);
     begin += piece.revolutions;
     end_ = leg.target;
     pieces_.push_back(piece);

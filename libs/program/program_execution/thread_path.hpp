@@ -45,7 +45,7 @@ struct ThreadPlace {
 class ThreadPath {
  public:
   static constexpr std::size_t most_legs = 64;
-  /// Axes keep to their limits up to this times S.
+  /// Axes keep to their acceleration and jerk up to this times S.
   static constexpr double speed_margin = 1.5;
 
   enum class Fault : std::uint8_t {
@@ -60,6 +60,8 @@ class ThreadPath {
               const motion::Limits& limits);
   /// Of the last build(), when it has a fault.
   std::size_t faulty_leg() const { return faulty_leg_; }
+  /// Up to this times S, at most the margin, every axis keeps to its velocity, too.
+  double highest_share() const { return highest_share_; }
   /// The angle at which the pitch line goes through the start point.
   void set_origin(double angle) { origin_ = angle; }
   double origin() const { return origin_; }
@@ -109,7 +111,7 @@ class ThreadPath {
   std::vector<Node> nodes_;  // one more than pieces
   AxisValues end_{};
   AxisValues acceleration_{}, jerk_{};  // mm per revolution^2 and ^3
-  double origin_ = 0;
+  double origin_ = 0, highest_share_ = speed_margin;
   std::size_t faulty_leg_ = 0;
   bool clockwise_ = true;
 };

@@ -8,7 +8,7 @@
 namespace trunnion::channel {
 namespace {
 
-constexpr double least_share = 0.5;         // of S; the highest is ThreadPath::speed_margin
+constexpr double least_share = 0.5;         // of S; the highest is that of the path
 constexpr double standing_rate = 1.0 / 60;  // rev/s
 constexpr double standing_seconds = 1, wrong_seconds = 10;
 
@@ -28,6 +28,7 @@ ThreadPath::Fault ThreadRun::begin(const AxisValues& start, std::span<const Thre
   if (fault != ThreadPath::Fault::none) return fault;
   spindle_ = spindle;
   position_ = start;
+  std::fill(rows_.begin(), rows_.end(), Row{});
   standing_ = wrong_ = 0;
   end();
   phase_ = Phase::waiting;
@@ -37,10 +38,11 @@ ThreadPath::Fault ThreadRun::begin(const AxisValues& start, std::span<const Thre
 void ThreadRun::on_feedback(const idl::stream::Feedback& feedback) {
   const std::size_t spindles = feedback.spindle_speed.size();
   if (!cutting() || spindle_.column >= spindles) return;
+  const bool counts = spindle_.column >= feedback.spindles.size() || feedback.spindles[spindle_.column].homed;
   for (std::uint32_t i = 0; i < feedback.count; ++i) {
     if ((i + 1) * spindles > feedback.spindle_angle.size()) break;
     const std::uint64_t cycle = feedback.first + i;
-    rows_[cycle % rows] = {cycle, feedback.spindle_angle[i * spindles + spindle_.column]};
+    rows_[cycle % rows] = {cycle, feedback.spindle_angle[i * spindles + spindle_.column], counts};
   }
 }
 
@@ -64,10 +66,14 @@ std::optional<ThreadRun::Prediction> ThreadRun::predict(std::uint64_t cycle) con
                     rate};
 }
 
+bool ThreadRun::homed(std::uint64_t cycle) const {
+  return rows_[(cycle - spindle_.lead - fitted) % rows].homed;
+}
+
 bool ThreadRun::at_speed(const Prediction& prediction) const {
   const double nominal = spindle_.speed / 60 * spindle_.cycle_seconds;
   const double share = (spindle_.clockwise ? prediction.rate : -prediction.rate) / nominal;
-  return share >= least_share && share <= ThreadPath::speed_margin;
+  return share >= least_share && share <= path_.highest_share();
 }
 
 std::uint64_t ThreadRun::cycles(double seconds) const {
@@ -84,16 +90,20 @@ void ThreadRun::supervise(const Prediction& prediction) {
   wrong_ = at_speed(prediction) ? 0 : wrong_ + 1;
   if (!broken_.empty()) return;
   if (standing_ > cycles(standing_seconds)) break_off("the spindle is at rest");
-  if (phase_ == Phase::following ? wrong_ > 0 : wrong_ > cycles(wrong_seconds))
-    break_off("the spindle turns at " + speed_text(per_second * 60) + ", S is " +
-              speed_text(spindle_.clockwise ? spindle_.speed : -spindle_.speed));
+  if (phase_ == Phase::following ? wrong_ > 0 : wrong_ > cycles(wrong_seconds)) {
+    const double speed = spindle_.clockwise ? spindle_.speed : -spindle_.speed;
+    const double highest = path_.highest_share();
+    break_off("the spindle turns at " + speed_text(per_second * 60) + ", S is " + speed_text(speed) +
+              (highest < ThreadPath::speed_margin ? ", the axes can follow " + speed_text(highest * speed)
+                                                  : std::string()));
+  }
 }
 
 // The drive has the angles of a lead before the tool moves.
 void ThreadRun::begin_batch(std::uint64_t cycle, bool stays) {
   if (phase_ != Phase::waiting || stays || !broken_.empty()) return;
   const auto prediction = predict(cycle);
-  if (!prediction || !at_speed(*prediction)) return;
+  if (!prediction || !homed(cycle) || !at_speed(*prediction)) return;
   const double ahead = std::abs(prediction->rate) * static_cast<double>(spindle_.lead + spindle_.batch);
   path_.set_origin(path_.first_origin(prediction->angle, ahead));
   phase_ = Phase::following;

@@ -75,6 +75,7 @@ class ThreadRun {
   struct Row {
     std::uint64_t cycle = ~0ull;
     double angle = 0;
+    bool homed = false;  // angles count from the index mark
   };
   struct Prediction {
     double angle = 0, rate = 0;  // rev, rev per cycle
@@ -83,6 +84,8 @@ class ThreadRun {
 
   /// Of the angle in `cycle`; nothing while too few rows of this stream can be known.
   std::optional<Prediction> predict(std::uint64_t cycle) const;
+  /// All rows of the prediction for `cycle` count from the index mark.
+  bool homed(std::uint64_t cycle) const;
   /// At a speed for which the path was made.
   bool at_speed(const Prediction& prediction) const;
   void supervise(const Prediction& prediction);

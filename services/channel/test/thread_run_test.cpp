@@ -24,7 +24,7 @@ struct ThreadBench : ::testing::Test {
     ThreadSpindle spindle;
     spindle.speed = 600;
     spindle.clockwise = clockwise;
-    ASSERT_EQ(run.begin({}, std::vector<ThreadLeg>{leg}, motion::Limits{}, spindle), ThreadPath::Fault::none);
+    ASSERT_EQ(run.begin({}, std::vector<ThreadLeg>{leg}, limits, spindle), ThreadPath::Fault::none);
     run.stream_starts(0);
   }
   /// Until it ends, or `most` cycles more.
@@ -38,6 +38,8 @@ struct ThreadBench : ::testing::Test {
         row.count = 1;
         row.spindle_speed = {600};
         row.spindle_angle = {angle(known)};
+        row.spindles.resize(1);
+        row.spindles[0].homed = known >= homed_from;
         run.on_feedback(row);
       }
       run.begin_batch(first, abandoned || held);
@@ -45,9 +47,10 @@ struct ThreadBench : ::testing::Test {
     }
   }
   ThreadRun run;
+  motion::Limits limits;
   std::function<double(std::uint64_t)> angle;
   std::vector<ThreadCycle> cycles;
-  std::uint64_t known = 0, early = 0;
+  std::uint64_t known = 0, early = 0, homed_from = 0;
 };
 
 std::function<double(std::uint64_t)> steady(double from, double rate) {
@@ -69,7 +72,9 @@ TEST_F(ThreadBench, TheToolGoesWithTheAngleThatTheSpindleWillHave) {
   for (std::size_t i = 48; i < cycles.size(); ++i) {
     const double at = 3.7 + 0.01 * static_cast<double>(i);
     ASSERT_NEAR(*cycles[i].angle, at, 1e-9);
-    if (at < 5.25 - 0.451) ASSERT_EQ(cycles[i].position[Z], 0);
+    if (at < 5.25 - 0.451) {
+      ASSERT_EQ(cycles[i].position[Z], 0);
+    }
     if (at < 5.25 + 0.46 || at > 5.25 + 9.54) continue;
     ASSERT_NEAR(cycles[i].position[Z], -2 * (at - 5.25), 1e-8);
     ASSERT_NEAR(cycles[i].speed, 20, 1e-6) << "2 mm ten times a second";
@@ -132,6 +137,35 @@ TEST_F(ThreadBench, WaitsForTheSpeedAndTakesNoSpindleThatTurnsTheOtherWay) {
   EXPECT_TRUE(run.ended()) << "10 s are over";
   EXPECT_EQ(run.broken(), "the spindle turns at -600 1/min, S is 600 1/min");
   EXPECT_EQ(cycles.back().position[Z], 0);
+}
+
+// 2 mm ten times a second are 20 mm/s: the axis can do 5 % more.
+TEST_F(ThreadBench, ASpindleFasterThanAnAxisCanFollowIsNotFollowed) {
+  limits.axes[Z].velocity = 21;
+  begin(steady(0, 0.0104));
+  go(100000);
+  EXPECT_EQ(run.broken(), "");
+  EXPECT_EQ(cycles.back().position[Z], -20);
+  cycles.clear();
+  known = 0;
+  begin(steady(0, 0.0106));
+  go(11000);
+  EXPECT_EQ(run.broken(), "the spindle turns at 636 1/min, S is 600 1/min, the axes can follow 630 1/min");
+  EXPECT_EQ(cycles.back().position[Z], 0);
+}
+
+// The mark is passed in cycle 130, and the count steps by 0.37. The first batch whose 16 rows all count from
+// it begins with cycle 180: its oldest row is that of cycle 132.
+TEST_F(ThreadBench, ItDoesNotBeginBeforeTheAnglesCountFromTheIndexMark) {
+  homed_from = 130;
+  begin([](std::uint64_t cycle) { return 0.01 * static_cast<double>(cycle) - (cycle >= 130 ? 0.37 : 0); });
+  go(100000);
+  EXPECT_EQ(run.broken(), "");
+  EXPECT_FALSE(cycles[179].angle);
+  ASSERT_TRUE(cycles[180].angle);
+  EXPECT_NEAR(*cycles[180].angle, 1.8 - 0.37, 1e-9);
+  EXPECT_EQ(run.path().origin(), std::floor(run.path().origin()));
+  EXPECT_EQ(cycles.back().position[Z], -20);
 }
 
 TEST_F(ThreadBench, ASpindleThatStandsEndsItAfterASecond) {

@@ -179,6 +179,21 @@ TEST(ThreadPath, PositionAndVelocityAreContinuousAndKeepToTheLimitsUpToTheMargin
   expect_limits(path_of({leg_to(0, -20, 1), leg_to(20, -20, 1)}), 42);
 }
 
+// 2 mm ten times a second, and 1.25 times as much. With a lead from 1 to sqrt(1 + 2 * 0.1 * 10) = 1.7320508 Z
+// goes 17.320508 mm/s at the end.
+TEST(ThreadPath, TheSlowestAxisSaysHowMuchFasterTheSpindleMayTurn) {
+  EXPECT_EQ(path_of({leg_to(0, -20, 2)}).highest_share(), ThreadPath::speed_margin);
+  auto limits = thread_limits();
+  limits.axes[Z].velocity = 25;
+  ThreadPath path;
+  const std::vector<ThreadLeg> even{leg_to(5, -20, 2)}, growing{leg_to(0, -10, 1, 0.1)};
+  ASSERT_EQ(path.build({}, even, 600, true, limits), ThreadPath::Fault::none);
+  EXPECT_NEAR(path.highest_share(), 1.25, 1e-12);
+  limits.axes[Z].velocity = 20;
+  ASSERT_EQ(path.build({}, growing, 600, true, limits), ThreadPath::Fault::none);
+  EXPECT_NEAR(path.highest_share(), 20 / (10 * std::sqrt(3.0)), 1e-12);
+}
+
 TEST(ThreadPath, ALegWithoutRoomForItsEndsIsRefused) {
   ThreadPath path;
   // 0.45 revolutions at either end are 1.8 mm of the pitch line.
