@@ -42,6 +42,7 @@ struct TestMachine : Environment {
   std::array<canonical::RotaryWay, axis_count> ways{};
   std::optional<MFunctions> functions;  // nothing: every M code may stand
   DwellPoint point = DwellPoint::refused;
+  AngleMCodes angle_codes{19, -1, -1, -1};
 
   AxisValues work_offset(std::uint8_t index) const override {
     if (index < offsets.size()) return offsets.at(index);
@@ -73,6 +74,7 @@ struct TestMachine : Environment {
   CycleSettings cycle_settings() const override { return cycles; }
   const MFunctions* m_functions() const override { return functions ? &*functions : nullptr; }
   DwellPoint dwell_point() const override { return point; }
+  AngleMCodes angle_m_codes() const override { return angle_codes; }
   /// The table turns a direction d of the part to R1 R2 d, which must be +Z: A -(tilt), C so that d points to
   /// -Y or +Y of the machine; of the two solutions the one with the smaller way of C, or C as chosen.
   std::optional<AxisValues> orient(const Vector3& d, const AxisValues& current,
