@@ -104,6 +104,7 @@ TEST(ChannelSetup, TheParametersNameTheCodesWithAnAngle) {
   tables.parameters.values[10921].value = 80;
   tables.parameters.values[10923].value = 81;
   EXPECT_EQ(ChannelSetup(tables).angle_m_codes(), (language::AngleMCodes{19, 80, -1, 81}));
+  EXPECT_EQ(test::setup_of("lathe").angle_m_codes(), (language::AngleMCodes{19, 80, 81, -1}));
 }
 
 // HNC-8: 040007 (U) = -2 makes U the spindle that G84 J4 taps with. Further letters are the spindles behind
