@@ -52,6 +52,46 @@ TEST(Machines, TwoChannelsRunTwoProgramsAtOnce) {
   EXPECT_GT(together, 500u) << "cycles in which both channels moved";
 }
 
+// X words are diameters, and G54 lies at Z 120: the face is turned to X-1, the bar to Z-40. Corners may be
+// cut by 0.01 mm.
+TEST(Machines, TheLatheTurnsAShaft) {
+  Cluster cluster("lathe");
+  cluster.keep_rows = true;
+  cluster.start("turning.nc");
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  EXPECT_EQ(cluster.active_alarms(), "");
+  double x = 1e9, z = 1e9;
+  for (const auto& row : cluster.every_row()) x = std::min(x, row[0]), z = std::min(z, row[1]);
+  EXPECT_NEAR(x, -0.5, 0.011);
+  EXPECT_NEAR(z, 80, 0.011);
+  EXPECT_NEAR(cluster.every_row().back()[0], 150, 1e-9);
+  EXPECT_NEAR(cluster.every_row().back()[1], 400, 1e-9);
+}
+
+// The sub-spindle is 0.1 % slow (truth.yaml), and 10a974 is 0.5 deg.
+TEST(Machines, TheSubSpindleOfTheLatheTakesThePartOverAtItsAngle) {
+  Cluster cluster("lathe");
+  double least = 1e9, worst = 0;
+  std::size_t over_the_part = 0, synchronized = 0;
+  cluster.on_batch = [&](const idl::stream::Feedback& feedback) {
+    if (feedback.count == 0 || feedback.spindles.size() < 2) return;
+    const double w = feedback.commanded[(feedback.count - 1) * feedback.axis_count + 2];
+    least = std::min(least, w);
+    if (w > 106) return;
+    const auto& sub = feedback.spindles[1];
+    ++over_the_part;
+    synchronized += sub.condition == idl::stream::SpindleCondition::SPINDLE_SYNCHRONIZED ? 1u : 0u;
+    worst = std::max(worst, std::abs(sub.synchronization_error));
+  };
+  cluster.start("takeover.nc");
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  EXPECT_EQ(cluster.active_alarms(), "");
+  EXPECT_NEAR(least, 105, 1e-9);
+  EXPECT_GT(over_the_part, 0u);
+  EXPECT_EQ(synchronized, over_the_part);
+  EXPECT_LT(worst, 0.5 / 360);
+}
+
 // A process of another make writes what no field can have: nothing of it takes effect, no service ends, and
 // an alarm names service, topic and field. That of the request ended the drive.
 TEST(Machines, MessagesThatNoFieldCanHaveAreRefusedAndTheMachineRunsOn) {

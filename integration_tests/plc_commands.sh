@@ -10,7 +10,7 @@ fail() { echo "$*" >&2; exit 1; }
 is() { [ "$2" = "$3" ] || fail "$1: expected '$3', there is '$2'"; }
 
 # Every machine's programs in Structured Text, without warnings, and every test.
-for directory in "$examples/plc-ladder" "$examples/plc-pid" "$examples/plc-spindles" "$examples/plc-tool-changer" $(ls -d "$machines"/*/plc); do
+for directory in "$examples/plc-ladder" "$examples/plc-pid" "$examples/plc-tool-changer" $(ls -d "$machines"/*/plc); do
   ls "$directory"/*.st > /dev/null 2>&1 || continue
   is "$directory" "$(find "$directory/" -name "*.st" -o -name "*.xml" -o -name devices.yaml -o -name messages.yaml -o -name modbus.yaml | sort | xargs "$trunnion" plc check | grep -v '^No errors\|: at most [0-9]* statements in one run$' || true)" ""
   ! grep -lq '^TEST' "$directory"/*.st || "$trunnion" plc test "$directory" > "$work/tests" || fail "$(cat "$work/tests")"

@@ -135,6 +135,8 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     planes_[i / 9][i / 3 % 3][i % 3] = p.get(parameter::tilted_plane_points, channel_, i);
   for (std::uint32_t i = 0; i < cycle_m_codes_.size(); ++i)
     cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer(parameter::cycle_m_code, 0, i));
+  for (std::uint32_t i = 0; i < angle_m_codes_.size(); ++i)
+    angle_m_codes_[i] = static_cast<std::int16_t>(p.integer(parameter::angle_m_code, 0, i));
   limits_.smoothing_cycles = p.integer(parameter::smoothing_cycles, channel_);
   limits_.contour_tolerance = p.get(parameter::contour_tolerance, channel_);
   limits_.combined_feed = p.integer(parameter::rotary_feed, channel_) == 0;

@@ -62,6 +62,7 @@ class ChannelSetup : public language::Environment {
   /// Half of parameter 000010; the other half is left to the smoothing of the joints.
   double curve_tolerance() const override { return limits_.arc_tolerance / 2; }
   const language::MFunctions* m_functions() const override { return &m_functions_; }
+  language::AngleMCodes angle_m_codes() const override { return angle_m_codes_; }
   language::DwellPoint dwell_point() const override { return dwell_point_; }
   language::ProgramDialect program_dialect() const override { return program_dialect_; }
   /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
@@ -173,6 +174,7 @@ class ChannelSetup : public language::Environment {
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};
   std::array<std::uint16_t, 8> cycle_m_codes_{};
+  language::AngleMCodes angle_m_codes_{};
   std::array<TappingSpindle, 7> tapping_spindles_;  // without J, and of J1..J6
   std::uint16_t spindle_mask_ = 0;
   std::array<Travel, language::axis_count> travel_{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/block_executor.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -9,7 +10,6 @@ namespace trunnion::language {
 namespace {
 
 constexpr std::uint32_t highest_repetition = 999999;
-constexpr std::uint16_t orientation_code = 19;
 constexpr double largest_angle = 360;  // deg
 
 /// The groups from `first` to `last`, which act one after the other.
@@ -40,6 +40,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
   settings.frame.set_work_offset(context_.tables.work_offset(state.modal.work_offset));
   settings.frame.set_tilt(state.modal.tilt);
   context_.words.configure(context_.environment);
+  angle_codes_ = context_.environment.angle_m_codes();
   context_.output.start();
   context_.activity = Activity::none;
   m_codes_due_ = false;
@@ -187,10 +188,10 @@ Fault BlockExecutor::auxiliary(When when) {
                                                    : SpindleDirection::stopped;
     }
     if (code.action == MAction::auxiliary || code.action == MAction::tool_change) {
-      const char word = code.number == orientation_code ? orientation_word() : '\0';
+      const char word = takes_angle(code.number) ? orientation_word() : '\0';
       double angle = 0;
       if (word != '\0') {
-        if (const Fault fault = orientation(word, angle)) return fault;
+        if (const Fault fault = orientation(code.number, word, angle)) return fault;
       }
       Command& command = context_.output.push(CommandKind::auxiliary);
       command.number = code.number;
@@ -204,6 +205,11 @@ Fault BlockExecutor::auxiliary(When when) {
   return {};
 }
 
+bool BlockExecutor::takes_angle(std::uint16_t code) const {
+  return std::find(angle_codes_.begin(), angle_codes_.end(), static_cast<std::int16_t>(code)) !=
+         angle_codes_.end();
+}
+
 // Where nothing else of the block can mean R or P.
 char BlockExecutor::orientation_word() const {
   constexpr std::uint32_t others = axis_bits | letter_bits("IJK");
@@ -215,18 +221,19 @@ char BlockExecutor::orientation_word() const {
   bool orients = false;
   for (std::size_t i = 0; i < words.m().count; ++i) {
     if (words.m().codes[i].group == MGroup::flow) return '\0';
-    orients = orients || words.m().codes[i].number == orientation_code;
+    orients = orients || takes_angle(words.m().codes[i].number);
   }
   return !orients ? '\0' : words.has('R') ? 'R' : words.has('P') ? 'P' : '\0';
 }
 
-Fault BlockExecutor::orientation(char word, double& angle) {
+Fault BlockExecutor::orientation(std::uint16_t code, char word, double& angle) {
   context_.words.use(word);
   const double value = context_.words.value(word);
   if (std::abs(value) > largest_angle) {
     FaultDetail& detail = context_.detail;
     detail.number = AlarmNumber::value_range;
-    std::snprintf(detail.text.data(), detail.text.size(), "the angle of M19 is -360 to 360 deg");
+    std::snprintf(detail.text.data(), detail.text.size(), "the angle of M%u is -360 to 360 deg",
+                  static_cast<unsigned>(code));
     return {detail.number, context_.words.offset(word)};
   }
   angle = std::fmod(value, largest_angle);

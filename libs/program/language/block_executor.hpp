@@ -124,16 +124,19 @@ class BlockExecutor {
   Fault check_context() const;
   Fault finish_block();
   Fault auxiliary(When when);
-  /// The letter of the angle of the block's M19, R or P; 0 when it has none.
+  /// The block of M`code` may give an angle.
+  bool takes_angle(std::uint16_t code) const;
+  /// The letter of the angle of such an M code (M19), R or P; 0 when the block has none.
   char orientation_word() const;
-  /// deg in [0, 360)
-  Fault orientation(char word, double& angle);
+  /// deg in [0, 360), of M`code`.
+  Fault orientation(std::uint16_t code, char word, double& angle);
   Fault set_flow(Flow& flow);
   Fault set_call(Flow& flow);
 
   BlockContext context_;
   BlockHandlers handlers_;
   Beginning beginning_ = Beginning::program;
+  AngleMCodes angle_codes_{};
   bool m_codes_due_ = false;  // those behind the motion, when the activity has ended
 };
 

@@ -2,6 +2,7 @@
 // What the interpreter has to know of the machine and its tables.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -71,6 +72,9 @@ enum class ProgramDialect : std::uint8_t { iso, num };
 
 inline constexpr std::uint8_t work_offset_count = 54;
 
+/// M codes whose block may give an angle by R or P; -1 = none.
+using AngleMCodes = std::array<std::int16_t, 4>;
+
 /// Everything a program's meaning depends on besides its text. The answers must not change between start()
 /// and the end of the program, so that interpreting it again up to a command gives that command again.
 class Environment {
@@ -128,6 +132,8 @@ class Environment {
   virtual double curve_tolerance() const { return 0.005; }
   /// What the machine's logic carries out; null when no machine is known and every M code may stand.
   virtual const MFunctions* m_functions() const { return nullptr; }
+  /// Parameters 010920 .. 010923.
+  virtual AngleMCodes angle_m_codes() const { return {19, -1, -1, -1}; }
   /// What a decimal point in the P of a dwell means (parameter 040918).
   virtual DwellPoint dwell_point() const { return DwellPoint::refused; }
   /// F of a move of linear and rotary axes without tool tip control counts both (parameter 040919).

@@ -97,6 +97,16 @@ TEST(ChannelSetup, ASpeedAboveThatOfTheHighestGearIsRefused) {
             "speed above the highest of the spindle: S3001, at most 3000 1/min (10a948)");
 }
 
+// 010920 .. 010923.
+TEST(ChannelSetup, TheParametersNameTheCodesWithAnAngle) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  EXPECT_EQ(ChannelSetup(tables).angle_m_codes(), (language::AngleMCodes{19, -1, -1, -1}));
+  tables.parameters.values[10921].value = 80;
+  tables.parameters.values[10923].value = 81;
+  EXPECT_EQ(ChannelSetup(tables).angle_m_codes(), (language::AngleMCodes{19, 80, -1, 81}));
+  EXPECT_EQ(test::setup_of("lathe").angle_m_codes(), (language::AngleMCodes{19, 80, 81, -1}));
+}
+
 // HNC-8: 040007 (U) = -2 makes U the spindle that G84 J4 taps with. Further letters are the spindles behind
 // 040913.
 TEST(ChannelSetup, LettersWithAxisNumberMinusTwoAreTheTappingSpindles) {

@@ -64,6 +64,24 @@ TEST(Orientation, ROrPOfAnotherCodeIsNoAngle) {
   EXPECT_EQ(hole.at(hole.size() - 5), "M19") << "it drills a hole from another level";
 }
 
+TEST(Orientation, OtherCodesTakeAnAngleWhereTheMachineSaysSo) {
+  TestMachine machine;
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(stream(run(machine, "M80 R90\n")), (Lines{"alarm 1107 1:5"}));
+  machine.angle_codes = {19, 80, 81, -1};
+  // -30 deg are 330; a code without an angle, and one that takes none, have none.
+  EXPECT_EQ(stream(run(machine, "M19 R10\nM80 R90\nM81 P-30\nM80\nM82\n")),
+            (Lines{"M19 at 10", "M80 at 90", "M81 at 330", "M80", "M82", "end 0"}));
+  EXPECT_EQ(stream(run(machine, "M82 R90\n")), (Lines{"alarm 1107 1:5"}));
+  const auto refused = run(machine, "M81 R400\n");
+  EXPECT_EQ(refused.alarm.number, AlarmNumber::value_range);
+  EXPECT_NE(std::string(refused.alarm.text.data()).find("the angle of M81 is -360 to 360 deg"),
+            std::string::npos)
+      << refused.alarm.text.data();
+  machine.angle_codes = {-1, -1, -1, -1};
+  EXPECT_EQ(stream(run(machine, "M19 R90\n")), (Lines{"alarm 1107 1:5"}));
+}
+
 TEST(Skip, NothingIsReadBeforeThePositionIsKnown) {
   TestMachine machine = machine_with_references();
   StringSource text("G55 G91 G31 X20 F100 M8\nX1 G0\nG90 X1\n");

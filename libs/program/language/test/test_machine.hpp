@@ -45,6 +45,7 @@ struct TestMachine : Environment {
   DwellPoint point = DwellPoint::refused;
   ProgramDialect dialect = ProgramDialect::iso;
   std::map<std::uint32_t, double> external;  // parameters of the NUM dialect
+  AngleMCodes angle_codes{19, -1, -1, -1};
 
   AxisValues work_offset(std::uint8_t index) const override {
     if (index < offsets.size()) return offsets.at(index);
@@ -82,6 +83,7 @@ struct TestMachine : Environment {
     const auto found = external.find(number);
     return found == external.end() ? std::nullopt : std::optional(found->second);
   }
+  AngleMCodes angle_m_codes() const override { return angle_codes; }
   /// The table turns a direction d of the part to R1 R2 d, which must be +Z: A -(tilt), C so that d points to
   /// -Y or +Y of the machine; of the two solutions the one with the smaller way of C, or C as chosen.
   std::optional<AxisValues> orient(const Vector3& d, const AxisValues& current,
