@@ -123,6 +123,7 @@ SpindleState Spindles::state(std::size_t i, const SpindleStatus& status, const S
     state.reference = controlled && !row.coupled ? row.speed : 0;
   }
   state.homed = status.homed;
+  state.angle = status.angle;
   state.gear = gears_[i].in_force();
   state.torque = status.torque;
   synchronized_.fill(state, i);

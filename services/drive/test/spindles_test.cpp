@@ -132,6 +132,7 @@ TEST(Spindles, TellWhatASpindleFollows) {
   EXPECT_EQ(s.step().condition, SpindleCondition::SPINDLE_ORIENTED);
   EXPECT_EQ(s.row[0].angle, 3.25);
   EXPECT_EQ(s.step().reference, 0);
+  EXPECT_EQ(s.step().angle, 3.25);
 }
 
 TEST(Spindles, AGearLimitsTheCommandedSpeedAndIsHandedToTheHardware) {
