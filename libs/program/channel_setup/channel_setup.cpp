@@ -105,6 +105,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
       numbered_references_[k][index] = p.get(parameter::numbered_reference, a, k);
   }
   find_tapping_spindles(p);
+  find_external_parameters(p);
   solver_.emplace(*chain_);
   rotary_travel_ = machine::rotary_travels(p, channel_);
   avoid_poles_ = p.integer(parameter::pole_handling, channel_) != 0;
@@ -122,6 +123,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   handwheel_share_ = p.get(parameter::handwheel_share, channel_);
   jog_renewal_seconds_ = p.get(parameter::jog_renewal_time, channel_);
   plane_angles_by_p_ = p.integer(parameter::plane_angles, channel_) == 1;
+  program_dialect_ = static_cast<language::ProgramDialect>(p.integer(parameter::program_dialect, channel_));
   dwell_point_ = static_cast<language::DwellPoint>(p.integer(parameter::dwell_point, channel_));
   cycles_ = {p.get(parameter::cycle_retract, channel_), p.get(parameter::cycle_clearance, channel_),
              p.integer(parameter::cycle_shift_axis, channel_)};
@@ -181,6 +183,29 @@ void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
     tapping_spindles_[letter - language::A + 1] = spindle(next);
     if (next != spindles.end()) ++next;
   }
+}
+
+// The dialect counts four spindles: E90310 is the first one's window, E90311 the second one's.
+void ChannelSetup::find_external_parameters(const machine::Parameters& p) {
+  constexpr std::uint32_t most_spindles = 4;
+  constexpr double parts_per_degree = 65536.0 / 360;
+  external_parameters_.clear();
+  std::uint32_t b = 0;
+  for (const auto& spindle : machine::spindles(p)) {
+    if (b == most_spindles) break;
+    const auto a = spindle.number;
+    external_parameters_[90310 + b] = p.get(parameter::synchronization_window, a) * parts_per_degree;
+    external_parameters_[90320 + b] = p.get(parameter::synchronization_gain, a);
+    external_parameters_[90330 + b] = p.get(parameter::maximum_acceleration, a);
+    external_parameters_[90370 + b] = p.get(parameter::base_speed, a);
+    external_parameters_[90380 + b] = p.get(parameter::power_speed, a);
+    ++b;
+  }
+}
+
+std::optional<double> ChannelSetup::external_parameter(std::uint32_t number) const {
+  const auto found = external_parameters_.find(number);
+  return found == external_parameters_.end() ? std::nullopt : std::optional(found->second);
 }
 
 void ChannelSetup::set_tools(const idl::parameters::ToolTable& table) {

@@ -63,6 +63,9 @@ class ChannelSetup : public language::Environment {
   double curve_tolerance() const override { return limits_.arc_tolerance / 2; }
   const language::MFunctions* m_functions() const override { return &m_functions_; }
   language::DwellPoint dwell_point() const override { return dwell_point_; }
+  language::ProgramDialect program_dialect() const override { return program_dialect_; }
+  /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
+  std::optional<double> external_parameter(std::uint32_t number) const override;
   bool plane_angles_by_p() const override { return plane_angles_by_p_; }
   bool combined_feed() const override { return limits_.combined_feed; }
   language::CycleSettings cycle_settings() const override { return cycles_; }
@@ -89,6 +92,7 @@ class ChannelSetup : public language::Environment {
   const char* highest_speed_parameter() const override {
     return tapping_spindles_[0].by_gears ? "10a985" : Environment::highest_speed_parameter();
   }
+  double highest_feed(std::size_t axis) const override { return limits_.axes[axis].velocity * 60; }
   double radius_deviation() const override { return radius_deviation_; }
   language::TextSource* subprogram(std::string_view name) override {
     auto* stored = resolve ? resolve(name) : nullptr;
@@ -132,6 +136,7 @@ class ChannelSetup : public language::Environment {
 
  private:
   void find_tapping_spindles(const machine::Parameters& parameters);
+  void find_external_parameters(const machine::Parameters& parameters);
   std::string words_of(const language::TravelBreach& breach, std::uint32_t line) const;
   /// Of a move whose tool goes `way`, or rotary axes in proportion when that is null.
   std::optional<language::TravelBreach> breach_of(const AxisValues& from, const language::Command& move,
@@ -162,6 +167,8 @@ class ChannelSetup : public language::Environment {
   language::MFunctions m_functions_;
   bool plane_angles_by_p_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
+  language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;
+  std::map<std::uint32_t, double> external_parameters_;
   language::CycleSettings cycles_;
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};

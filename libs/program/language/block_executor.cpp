@@ -32,6 +32,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     settings.intermediate.reset();
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
+    state.thread_lead = 0;
   }
   state.needs_position = state.homing = false;
   state.homed = 0;
@@ -55,6 +56,7 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
   if (const Fault fault = context_.words.begin(block)) return fault;
   if (const Fault fault = check_context()) return fault;
   context_.state.begin_block();
+  if (block.message) context_.output.push(CommandKind::message).number = line_message;
   Fault fault = run(flow);
   if (!fault) fault = context_.output.check_room();
   if (fault) {
@@ -259,6 +261,11 @@ Fault BlockExecutor::set_flow(Flow& flow) {
 Fault BlockExecutor::set_call(Flow& flow) {
   BlockWords& words = context_.words;
   flow.kind = Flow::Kind::call;
+  if (words.called() != 0) {
+    flow.subprogram = words.called();
+    flow.counted = true;
+    return {};
+  }
   if (!words.has('P')) return {AlarmNumber::missing_word, flow.offset, needs('P')};
   // P and L have one meaning each: a dwell or turns in the same block leave none for the call.
   for (const char letter : {'P', 'L'}) {

@@ -15,6 +15,9 @@ enum class Beginning : std::uint8_t {
   line,     ///< everything but cutter radius compensation: a further line of manual data input
 };
 
+/// Number of a CommandKind::message whose text is behind the $ of its line; those of #3006 are at most 9999.
+inline constexpr std::uint32_t line_message = 10000;
+
 /// Where the program continues after a block.
 struct Flow {
   enum class Kind : std::uint8_t { next, call, go_back, end };

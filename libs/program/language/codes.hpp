@@ -125,6 +125,9 @@ constexpr MCode m_code(std::uint16_t number) {
   return {number, When::before, MAction::auxiliary, MGroup::none, "auxiliary function"};
 }
 
+/// The modal motion code `motion` cuts a thread.
+constexpr bool is_thread(std::uint8_t motion) { return motion == 33 || motion == 34; }
+
 /// T, S, and M codes that do not only steer the program's flow: what the PLC carries out and going back along
 /// the path does not undo.
 constexpr bool changes_machine(const Command& command) {

@@ -69,7 +69,7 @@ Command& CommandOutput::push(CommandKind kind) {
     place = &scratch_;
   }
   moves_ |= kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc ||
-            kind == CommandKind::skip || kind == CommandKind::tap;
+            kind == CommandKind::skip || kind == CommandKind::tap || kind == CommandKind::thread;
   Command& command = *place;
   command = Command{};
   command.kind = kind;
@@ -120,6 +120,8 @@ Fault CommandOutput::move_straight(const StraightMove& move, const AxisValues& p
   if (move.chord) command.modal.path_control = PathControl::continuous;
   command.number = move.number;
   command.value = move.value;
+  command.lead_change = move.lead_change;
+  command.start_angle = move.start_angle;
   if (move.kind != CommandKind::rapid && !linear && state_.modal.feed_mode != FeedMode::inverse_time) {
     command.modal.feed /= state_.modal.metric ? 1.0 : 25.4;
   }

@@ -18,7 +18,9 @@ struct StraightMove {
   CommandKind kind = CommandKind::line;
   bool chord = false;        ///< as Command::chord
   std::uint32_t number = 0;  ///< as Command::number of kinds skip and tap
-  double value = 0;          ///< as Command::value of kind tap
+  double value = 0;          ///< as Command::value of kinds tap and thread
+  double lead_change = 0;    ///< as Command::lead_change
+  double start_angle = 0;    ///< as Command::start_angle
 };
 
 /// Makes commands out of the program's state and numbers them. It keeps the frames that commands were made

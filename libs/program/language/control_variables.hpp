@@ -43,6 +43,9 @@ class ControlVariables final : public SystemVariables {
 
   AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const override;
   AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) override;
+  std::optional<double> external_parameter(std::uint32_t number) const override {
+    return environment_.external_parameter(number);
+  }
 
   /// Carries out what writing a variable asked for since the last time: a message, a change of a table.
   Fault carry_out(std::uint32_t program, std::uint32_t line, CommandQueue& out);

@@ -66,6 +66,9 @@ struct TravelBreach {
   double position = 0;
 };
 
+/// How programs are written (parameter 04c959).
+enum class ProgramDialect : std::uint8_t { iso, num };
+
 inline constexpr std::uint8_t work_offset_count = 54;
 
 /// Everything a program's meaning depends on besides its text. The answers must not change between start()
@@ -76,6 +79,14 @@ class Environment {
   /// Machine coordinates of the zero of work offset `index`: 0 = G54 .. 5 = G59, 6 = G54.1 P1 .. 53 = G54.1
   /// P48; mm and degrees.
   virtual AxisValues work_offset(std::uint8_t index) const = 0;
+  /// Of every program and every line of manual data input of the channel.
+  virtual ProgramDialect program_dialect() const { return ProgramDialect::iso; }
+  /// External parameter `number` of the NUM dialect, in the unit of its row in num_parameters.hpp; nothing
+  /// when the machine does not have it.
+  virtual std::optional<double> external_parameter(std::uint32_t number) const {
+    static_cast<void>(number);
+    return std::nullopt;
+  }
   /// Tool length of table entry `h` (from 1) in mm, or nothing when there is no such entry.
   virtual std::optional<double> tool_length(std::uint16_t h) const = 0;
   /// The whole entry `number` of the tool table, from 1, or nothing when there is none.
@@ -182,6 +193,11 @@ class Environment {
   virtual double highest_spindle_speed() const { return 0; }
   /// The parameter that limits it.
   virtual const char* highest_speed_parameter() const { return "10a948"; }
+  /// Highest speed of a linear axis at feed in mm/min; 0 = no limit.
+  virtual double highest_feed(std::size_t axis) const {
+    static_cast<void>(axis);
+    return 0;
+  }
   /// Largest difference of an arc's radii at its start and its end in mm (parameter 000011, default 0.1).
   virtual double radius_deviation() const = 0;
   /// The text of a subprogram that is not in the calling text, or nullptr. `name` is O and at least four

@@ -3,22 +3,34 @@
 
 #include <string_view>
 
+#include "language/iso_dialect.hpp"
+#include "language/num_dialect.hpp"
+
 namespace trunnion::language {
 namespace {
 
 /// Lines read in one call of next() before it gives the thread back.
 constexpr int lines_per_call = 1000;
 
-}  // namespace
-
-const Dialect& Interpreter::iso_dialect() {
-  static const IsoDialect dialect;
-  return dialect;
+/// Makes the end of the program (M2) that of the subprogram (M99).
+void return_at_end(Block& block) {
+  for (std::size_t i = 0; i < block.m_count; ++i)
+    if (block.m[i].value == 2) block.m[i].value = 99;
 }
 
-Interpreter::Interpreter(Environment& environment, InterpreterOptions options, const Dialect& dialect)
+}  // namespace
+
+const Dialect& Interpreter::dialect_of(ProgramDialect name) {
+  static const IsoDialect iso;
+  static const NumDialect num;
+  if (name == ProgramDialect::num) return num;
+  return iso;
+}
+
+Interpreter::Interpreter(Environment& environment, InterpreterOptions options, const Dialect* dialect)
     : environment_(environment),
-      dialect_(dialect),
+      chosen_(dialect),
+      dialect_(dialect != nullptr ? dialect : &dialect_of(ProgramDialect::iso)),
       options_(options),
       executor_(environment),
       control_(environment, executor_),
@@ -26,6 +38,8 @@ Interpreter::Interpreter(Environment& environment, InterpreterOptions options, c
 
 void Interpreter::start(TextSource& text, const AxisValues& position, const ModalState& initial,
                         const VariableStore& variables, Beginning beginning) {
+  dialect_ = chosen_ != nullptr ? chosen_ : &dialect_of(environment_.program_dialect());
+  rules_ = dialect_->rules();
   executor_.start(position, initial, beginning);
   if (beginning == Beginning::program) {
     control_.start();
@@ -34,7 +48,8 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   control_.forget_call();
   variables_.start(variables);
   control_.set_skip_position(variables_.skip_position());
-  for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
+  for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i)
+    cycle_m_codes_[i] = rules_.cycle_m_codes ? environment_.cycle_m_code(i) : std::uint16_t{0};
   queue_.clear();
   alarm_ = Alarm{};
   depth_ = 0;
@@ -147,7 +162,7 @@ Interpreter::State Interpreter::run_line(Step& step) {
 
 Interpreter::State Interpreter::execute(std::string_view line) {
   CallLevel& level = levels_[depth_];
-  if (const Fault fault = dialect_.read_block(line, options_.block_skip, variables_, block_))
+  if (const Fault fault = dialect_->read_block(line, options_.block_skip, variables_, block_))
     return fail(fault, line);
   if (block_.skipped) return State::running;
   if (block_.head != Head::none && level.started) return end_of_text();
@@ -167,6 +182,7 @@ Interpreter::State Interpreter::execute(std::string_view line) {
 }
 
 Interpreter::State Interpreter::execute_words(std::string_view line) {
+  if (rules_.text_ends_subprograms && depth_ != 0) return_at_end(block_);
   Call call;
   if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);
   const auto* const modal = modal_calls_.active();
@@ -228,6 +244,7 @@ Interpreter::State Interpreter::end_of_text() {
     line_ = open.top().begin.line;
     return fail({AlarmNumber::begin_without_end, 0}, {});
   }
+  if (depth_ != 0 && rules_.text_ends_subprograms) return return_from_subprogram({}, {});
   if (depth_ != 0) return fail({AlarmNumber::subprogram_without_end, 0}, {});
   if (const Fault fault = executor_.end_program(0, levels_[0].program, line_, queue_)) return fail(fault, {});
   return State::done;

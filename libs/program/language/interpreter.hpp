@@ -9,7 +9,6 @@
 #include "language/block_executor.hpp"
 #include "language/control_variables.hpp"
 #include "language/endless_loop.hpp"
-#include "language/iso_dialect.hpp"
 #include "language/jump_cache.hpp"
 #include "language/line_reader.hpp"
 #include "language/macro_call.hpp"
@@ -48,12 +47,14 @@ inline constexpr VariableStore no_variables{};
 /// O31234; G1007 calls %1007 of the text "USERDEF.CYC". A main program ends with M2, M30, its text, a lone %
 /// or the head of the next program; M99 there starts it again from its top. A subprogram must end with M99.
 /// GOTO and M99 P look for N forward, then from the top of the program. While G66 is active, each block that
-/// moves, but for those of the called macro itself, is followed by the call.
+/// moves, but for those of the called macro itself, is followed by the call. What the NUM dialect has instead
+/// is in num_dialect.hpp.
 class Interpreter {
  public:
-  /// `environment` and `dialect` must outlive the interpreter.
+  /// `environment` and `dialect` must outlive the interpreter. Without a dialect the environment names that
+  /// of each text that is started; subprograms are written in it, too.
   explicit Interpreter(Environment& environment, InterpreterOptions options = {},
-                       const Dialect& dialect = iso_dialect());
+                       const Dialect* dialect = nullptr);
   Interpreter(const Interpreter&) = delete;
   Interpreter& operator=(const Interpreter&) = delete;
 
@@ -126,7 +127,7 @@ class Interpreter {
   /// Positions, frames and tables as the program has left them, for system variables.
   const BlockExecutor& executor() const { return executor_; }
 
-  static const Dialect& iso_dialect();
+  static const Dialect& dialect_of(ProgramDialect name);
 
  private:
   struct CallLevel {
@@ -184,6 +185,7 @@ class Interpreter {
   State run_statement(std::string_view line);
   State call_cycle(std::string_view line);
   State branch(bool condition, std::string_view line);
+  State execute_rest(std::string_view line);
   State jump(Purpose purpose, std::uint32_t wanted, TextPosition from, const Fault& in_vain,
              std::string_view line);
   State search(Purpose purpose, std::uint32_t wanted, TextPosition from);
@@ -203,7 +205,9 @@ class Interpreter {
   State return_from_subprogram(const Flow& flow, std::string_view line);
 
   Environment& environment_;
-  const Dialect& dialect_;
+  const Dialect* const chosen_;
+  const Dialect* dialect_;
+  DialectRules rules_;
   InterpreterOptions options_;
   BlockExecutor executor_;
   ControlVariables control_;

@@ -37,7 +37,7 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
       else_if_due_ = false;
       if (!due) return jump(Purpose::end, 0, position_, in_vain, line);
       bool condition = false;
-      if (const Fault fault = dialect_.read_condition(line, block_.rest, variables_, condition))
+      if (const Fault fault = dialect_->read_condition(line, block_.rest, variables_, condition))
         return fail(fault, line);
       return branch(condition, line);
     }
@@ -45,7 +45,7 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
       return jump(Purpose::end, 0, position_, in_vain, line);
     case Statement::begin_while:
     case Statement::begin_do:
-      return block_.condition ? State::running : jump(Purpose::end, 0, position_, in_vain, line);
+      return block_.condition ? execute_rest(line) : jump(Purpose::end, 0, position_, in_vain, line);
     case Statement::end_while:
     case Statement::end_do:
       // The beginning is read again: its condition decides.
@@ -57,8 +57,13 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
 }
 
 Interpreter::State Interpreter::branch(bool condition, std::string_view line) {
-  if (condition) return State::running;
+  if (condition) return execute_rest(line);
   return jump(Purpose::branch, 0, position_, {AlarmNumber::begin_without_end, block_.at}, line);
+}
+
+// What the NUM dialect permits behind THEN and DO.
+Interpreter::State Interpreter::execute_rest(std::string_view line) {
+  return block_.has_more() ? execute_words(line) : State::running;
 }
 
 Interpreter::State Interpreter::jump(Purpose purpose, std::uint32_t wanted, TextPosition from,
@@ -103,7 +108,7 @@ Interpreter::State Interpreter::search_line(Step& step) {
   const LineReader::Status status = reader_.next(line);
   if (status == LineReader::Status::end) return search_ended();
   if (status != LineReader::Status::line) return report_line_status(status, step);
-  const Outline outline = dialect_.outline(line, options_.block_skip);
+  const Outline outline = dialect_->outline(line, options_.block_skip);
   if (search_.purpose == Purpose::program) {
     if (outline.head != Head::program || outline.program_number != search_.wanted) return State::searching;
     const bool cycle = call_.kind == CallKind::cycle;

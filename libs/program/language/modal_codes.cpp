@@ -30,10 +30,25 @@ Fault ModalCodes::set_feed_mode(std::uint16_t, FeedMode mode) {
   return {};
 }
 
+// A code that gives the axis words a meaning of its own, or a cycle, moves at feed.
+bool ModalCodes::takes_lead() const {
+  const GCodes& g = words_.g();
+  if (g.has(Group::one_block) && g.code(Group::one_block).axis_words == AxisWords::taken) return false;
+  if (g.has(Group::motion))
+    return g.is(Group::motion, 320) || g.is(Group::motion, 330) || g.is(Group::motion, 340);
+  const bool cycle = g.has(Group::cycle) ? g.code(Group::cycle).tenths != 800 : state_.modal.cycle != 80;
+  return !cycle && is_thread(state_.modal.motion);
+}
+
 Fault ModalCodes::feed_word() {
   if (!words_.has('F')) return {};
   words_.use('F');
   const double feed = words_.value('F');
+  if (takes_lead()) {
+    if (!(feed > 0)) return {AlarmNumber::thread_lead_missing, words_.offset('F')};
+    state_.thread_lead = feed * words_.length_scale();
+    return {};
+  }
   if (!(feed > 0)) return {AlarmNumber::feed_not_positive, words_.offset('F')};
   const bool time = state_.modal.feed_mode == FeedMode::inverse_time;
   state_.modal.feed = time ? feed : feed * words_.length_scale();

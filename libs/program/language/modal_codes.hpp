@@ -32,6 +32,8 @@ class ModalCodes : private BlockHandler {
 
  private:
   Fault check_spindle_speed(double speed);
+  /// F of the block is the lead of a thread.
+  bool takes_lead() const;
 };
 
 }  // namespace trunnion::language

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "language/alarms.hpp"
@@ -141,6 +142,11 @@ class SystemVariables {
   /// `index` counts from the first of `range`.
   virtual AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const = 0;
   virtual AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) = 0;
+  /// An external parameter of the NUM dialect, by its number; nothing when the machine does not have it.
+  virtual std::optional<double> external_parameter(std::uint32_t number) const {
+    static_cast<void>(number);
+    return std::nullopt;
+  }
 };
 
 /// Everything an expression can name. No allocation.
@@ -168,6 +174,11 @@ class Variables {
     return read_common(number, value);
   }
   AlarmNumber write(double number, Value value);
+  /// As SystemVariables; counts as a system variable that was read.
+  std::optional<double> external_parameter(std::uint32_t number) const {
+    ++system_reads_;
+    return system_.external_parameter(number);
+  }
 
   /// AR[#n]: 0 when the call did not give local variable n, else 90 or 91 as G90 or G91 was active then.
   AlarmNumber argument(double number, Value& value) const;

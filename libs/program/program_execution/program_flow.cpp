@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "machine/alarm_constants.hpp"
 #include "motion/path_segment.hpp"
@@ -57,7 +58,8 @@ void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, c
   skips_read_ = 0;
   lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   place_ = position;
-  tapping_ = in_hole_ = text_missing_ = false;
+  tapping_ = in_hole_ = text_missing_ = behind_thread_ = false;
+  set_threading(false);
   executing_ = initial;
   frames_.clear();
   modals_.clear();
@@ -114,9 +116,13 @@ FlowState ProgramFlow::push_move() {
     if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
     if (const auto state = ask_guard(from); state != FlowState::full) return state;
   }
-  auto move = command_.kind == CommandKind::tap ? Tapping::line(command_) : command_;
+  auto move = command_.kind == CommandKind::tap      ? Tapping::line(command_)
+              : command_.kind == CommandKind::thread ? thread_line(command_, from)
+                                                     : command_;
   if (move.kind == CommandKind::skip) move.kind = CommandKind::line;
-  if (dry_run_feed_ > 0 && command_.kind != CommandKind::tap && command_.kind != CommandKind::skip) {
+  const bool own_speed = command_.kind == CommandKind::tap || command_.kind == CommandKind::skip ||
+                         command_.kind == CommandKind::thread;
+  if (dry_run_feed_ > 0 && !own_speed) {
     move.modal.feed = dry_run_feed_;
     move.modal.feed_mode = language::FeedMode::per_minute;
   } else if (move.modal.feed_mode == language::FeedMode::per_revolution) {
@@ -131,6 +137,32 @@ FlowState ProgramFlow::push_move() {
   executing_ = command_.modal;
   have_command_ = false;
   if (on_move) on_move(move);
+  return FlowState::full;
+}
+
+void ProgramFlow::set_threading(bool threading) {
+  threading_ = threading;
+  thread_complete_ = false;
+  legs_.clear();
+  if (threading) legs_.reserve(ThreadPath::most_legs);
+}
+
+// The axes are at rest: the guard may take its time.
+FlowState ProgramFlow::take_leg() {
+  const auto from = legs_.empty() ? motion_->end_position() : legs_.back().target;
+  if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
+  auto free = ask_guard(from);
+  while (free == FlowState::waiting) {
+    guard_->begin_call();
+    free = ask_guard(from);
+  }
+  if (free != FlowState::full) return free;
+  legs_.push_back(leg_of(command_));
+  executing_ = command_.modal;
+  have_command_ = false;
+  if (on_move) on_move(thread_line(command_, from));
+  thread_complete_ = command_.modal.path_control == language::PathControl::exact_stop ||
+                     legs_.size() == ThreadPath::most_legs;
   return FlowState::full;
 }
 
@@ -164,6 +196,12 @@ FlowState ProgramFlow::push_pending() {
 }
 
 void ProgramFlow::refuse_pending(language::AlarmNumber number) { fail(number); }
+
+void ProgramFlow::refuse_thread(language::AlarmNumber number, std::size_t leg) {
+  const auto& at = legs_[leg];
+  fail(definition_of(number), place(at.program, at.line) + ": " + std::string(language::alarm_text(number)));
+  place_alarm(at.program, at.line);
+}
 
 FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text) {
   return fail(definition_of(number), place(command_.program, command_.line) + ": " + std::string(text));
@@ -213,6 +251,8 @@ FlowState ProgramFlow::arrive_at_line() {
     return fail_search("cutter radius compensation is on here: start before its G41 or G42");
   if (modal.motion == 62) return fail_search("the line is in the middle of a curve (G6.2)");
   search_ = Search::none;
+  behind_thread_ = coupled_threads_ && command_.kind == CommandKind::thread &&
+                   command_.modal.path_control == language::PathControl::continuous;
   executing_ = modal;
   modals_.clear();
   modals_.add(0, modal);
@@ -261,7 +301,8 @@ FlowState ProgramFlow::take_step(language::Step step) {
 void ProgramFlow::note_motion() {
   const auto kind = command_.kind;
   bool moves = kind == CommandKind::tap || kind == CommandKind::skip || kind == CommandKind::arc ||
-               kind == CommandKind::home || (kind == CommandKind::dwell && command_.dwell_seconds > 0);
+               kind == CommandKind::home || kind == CommandKind::thread ||
+               (kind == CommandKind::dwell && command_.dwell_seconds > 0);
   for (std::size_t i = 0; i < place_.size() && is_path(kind); ++i)
     moves = moves || std::abs(command_.target[i] - place_[i]) > least_motion;
   if (moves || kind == CommandKind::transformation) place_ = command_.target;
@@ -273,6 +314,7 @@ void ProgramFlow::note_motion() {
 FlowState ProgramFlow::fill(bool single_block) {
   text_missing_ = false;
   if (alarm_ != nullptr) return FlowState::alarm;
+  if (thread_complete_) return FlowState::full;
   if (guard_ != nullptr) guard_->begin_call();
   // A long search for the restart point must leave time for messages.
   constexpr int most_commands = 4096;
@@ -301,7 +343,8 @@ FlowState ProgramFlow::fill(bool single_block) {
         continue;
       }
       // The spindle is no longer coupled to the position in the thread.
-      if (drilling) return fail(language::AlarmNumber::not_resumable);
+      if (drilling || (coupled_threads_ && command_.kind == CommandKind::thread))
+        return fail(language::AlarmNumber::not_resumable);
       search_ = Search::none;
       // A drive that lost its newest cycles repeats the skip moves in them: their results are void.
       skips_.resize(skips_read_);
@@ -314,14 +357,30 @@ FlowState ProgramFlow::fill(bool single_block) {
     if (!(*modals_.newest() == command_.modal)) modals_.add(command_.sequence, command_.modal);
     const bool stroke =
         command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
-    const bool move = is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke;
-    if (single_block && block_line_ != 0 && command_.line != block_line_) {
+    const bool thread = command_.kind == CommandKind::thread;
+    const bool coupled = thread && coupled_threads_;
+    const bool move =
+        is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke || (thread && !coupled);
+    if (std::exchange(behind_thread_, false) && coupled)
+      return fail_search("the line continues a thread: start before the first block of it");
+    if (threading_ && !coupled) {
+      thread_complete_ = true;
+      return FlowState::full;
+    }
+    if (single_block && block_line_ != 0 && command_.line != block_line_ && !threading_) {
       motion_->finish();
       return FlowState::block_end;
     }
     block_line_ = command_.line;
+    if (thread && machine_ != nullptr && !machine_->tapping_spindle().axis)
+      return fail(language::AlarmNumber::tapping_spindle_missing);
+    if (threading_) {
+      if (const auto state = take_leg(); state == FlowState::alarm) return state;
+      if (thread_complete_) return FlowState::full;
+      continue;
+    }
     if (!move || stroke != tapping_) {
-      if (command_.kind == CommandKind::skip || stroke) executing_ = command_.modal;
+      if (command_.kind == CommandKind::skip || stroke || coupled) executing_ = command_.modal;
       motion_->finish();
       if (!without_reference_.empty() && needs_references(command_)) return fail_without_reference();
       return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "channel_setup/channel_setup.hpp"
 #include "language/interpreter.hpp"
@@ -18,6 +19,7 @@
 #include "program_execution/move_guard.hpp"
 #include "program_execution/skip_result.hpp"
 #include "program_execution/tapping.hpp"
+#include "program_execution/thread_path.hpp"
 
 namespace trunnion::program_execution {
 
@@ -113,6 +115,14 @@ class ProgramFlow {
   void refuse_pending(language::AlarmNumber number);
   /// Rigid tapping has started or ended: strokes and the dwells between them are moves meanwhile.
   void set_tapping(bool tapping) { tapping_ = tapping; }
+  /// Threads follow the spindle: FlowState::command comes before one; else they are lines that motion gets.
+  void set_coupled_threads(bool coupled) { coupled_threads_ = coupled; }
+  /// Called at rest, with a thread pending: fill() then collects it, and those that continue it, in legs() up
+  /// to another command, an exact stop or the most legs, and gives motion nothing. Off: legs() are done.
+  void set_threading(bool threading);
+  const std::vector<ThreadLeg>& legs() const { return legs_; }
+  /// One of them cannot be cut: FlowState::alarm.
+  void refuse_thread(language::AlarmNumber number, std::size_t leg);
   /// Where the pending skip move ended; the interpreter continues from there. A restart of the program reads
   /// the results again.
   void skip_ended(const SkipResult& result) { skips_.push_back(result); }
@@ -178,6 +188,7 @@ class ProgramFlow {
   /// Full: motion may have the pending move. Waiting: the guard has not finished. Else alarm.
   FlowState ask_guard(const AxisValues& from);
   FlowState take_step(language::Step step);
+  FlowState take_leg();
   FlowState arrive_at_line();
   FlowState fail(const machine::AlarmDefinition& alarm, const std::string& text);
   FlowState fail(language::AlarmNumber number, std::string_view text);
@@ -205,6 +216,9 @@ class ProgramFlow {
   Entry entry_;
   Search search_ = Search::none;
   bool tapping_ = false, in_hole_ = false, text_missing_ = false;
+  bool coupled_threads_ = false, threading_ = false, thread_complete_ = false;
+  bool behind_thread_ = false;  // the line to start from may continue one
+  std::vector<ThreadLeg> legs_;
   std::uint64_t lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   AxisValues place_{};        // where the newest motion ends
   AxisValues home_target_{};  // of the newest search for references

@@ -145,6 +145,7 @@ void ProgramReader::pass(const Command& command, const Command& move) {
     case CommandKind::arc:
     case CommandKind::skip:
     case CommandKind::tap:
+    case CommandKind::thread:
     case CommandKind::transformation:
     case CommandKind::home:
       from_ = command.target;

@@ -44,7 +44,7 @@ class ProgramReader {
   ProgramReader& operator=(const ProgramReader&) = delete;
 
   /// Sees each command once the channel would have taken it, and its move as motion has got it; the two are
-  /// the same but for skip moves, strokes of taps and feeds per revolution. May be empty.
+  /// the same but for skip moves, strokes of taps, threads and feeds per revolution. May be empty.
   std::function<void(const language::Command& command, const language::Command& move)> on_command;
   /// Ends the reading when it is true. Asked at least every few thousand commands; may be empty.
   std::function<bool()> stop;

@@ -37,6 +37,7 @@ class Tracer {
       case CommandKind::line:
       case CommandKind::skip:
       case CommandKind::tap:
+      case CommandKind::thread:
       case CommandKind::arc: {
         trace(from, command);
         out_.feed_lines.insert(command.line);

@@ -153,8 +153,8 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
 // A program that is held may be left for MDI and manual motion; cycle start in AUTO returns to it. Before its
 // restart point is reached it may not: its trajectory starts there, wherever the axes are.
 Answer ChannelCore::set_mode(Mode mode) {
-  const bool leaves = states_.may_suspend() && !restart_ && !tapping_.active() && !skip_.active() &&
-                      !program_homing_.under_way();
+  const bool leaves = states_.may_suspend() && !restart_ && !tapping_.active() && !thread_.active() &&
+                      !skip_.active() && !program_homing_.under_way();
   if (states_.busy() && !leaves && mode != mode_)
     return refuse(alarm::request_invalid,
                   "The mode cannot change while the channel is busy: stop or reset it first");
@@ -221,6 +221,9 @@ Answer ChannelCore::continue_after_interruption() {
     entry.restart = *restart_;
     return start_program(entry);
   }
+  if (thread_.cutting())
+    return refuse(alarm::not_ready,
+                  "The axes were stopped in a thread: reset the channel, retract the tool, cut it again");
   stream_.link().request_resume();
   states_.resume_interrupted();
   return {};

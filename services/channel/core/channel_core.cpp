@@ -98,6 +98,7 @@ void ChannelCore::keep_variables() {
 }
 
 AxisValues ChannelCore::machine_position() const {
+  if (thread_.cutting()) return path().machine_of(thread_.position());
   if (!states_.is(Activity::handwheel)) return path().machine_position();
   auto position = machine_start_;
   for (std::size_t i = 0; i < position.size(); ++i) position[i] += manual_.wheel()[i];
@@ -133,6 +134,7 @@ void ChannelCore::stop_activity() {
   skip_.end();
   program_homing_.end();
   finish_tapping();
+  finish_thread();
   if (stream_.moving() || link().state() == LinkState::requested) stream_.link().leave();
   keep_variables();
   if (states_.is(Activity::program) && preparing == nullptr) states_.forget_suspended();
@@ -152,6 +154,7 @@ void ChannelCore::finish(bool program_end) {
   skip_.end();
   program_homing_.end();
   finish_tapping();
+  finish_thread();
   machine_start_ = machine_position();
   manual_.end_wheel();
   bodies_.forget_jog();

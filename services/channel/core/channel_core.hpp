@@ -41,6 +41,7 @@
 #include "stream_writer.hpp"
 #include "switches.hpp"
 #include "table_change.hpp"
+#include "thread_run.hpp"
 
 namespace trunnion::channel {
 
@@ -167,8 +168,9 @@ class ChannelCore {
   // fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
   // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and the state of the
   // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, skip_,
-  // exact_stop_, tapping_, program_homing_, homed_at_start_, restart_, recovered_, variables_news_, events_.
-  // No fields, they are made again: program_path_, manual_path_, program_cache_, bodies_, unusable_, state_.
+  // exact_stop_, tapping_, thread_, program_homing_, homed_at_start_, restart_, recovered_, variables_news_,
+  // events_. No fields, they are made again: program_path_, manual_path_, program_cache_, bodies_, unusable_,
+  // state_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("link", self.stream_.link()), visit("handshake", self.handshake_),
@@ -279,6 +281,10 @@ class ChannelCore {
   void finish_skip();
   void begin_tapping();
   void finish_tapping();
+  void begin_thread();
+  void cut_thread();
+  StreamCycle step_thread(std::uint64_t cycle);
+  void finish_thread();
 
   // channel_homing.cpp: axes that a program homes.
   void begin_program_homing(const language::Command& command);
@@ -295,6 +301,7 @@ class ChannelCore {
   bool motion_at_rest() const;
   void check_exact_stop(std::uint64_t cycle);
   StreamCycle step_cycle(std::uint64_t cycle);
+  void add_offset(StreamCycle& out, const AxisValues& machine);
   bool in_machine_coordinates() const { return lock_.any() || manual_.offset_on(); }
   void remember_executed();
   void store_state(FlowState state, idl::stream::ChannelSnapshot& out) const;
@@ -317,7 +324,7 @@ class ChannelCore {
     return states_.is(Activity::program) && (preparing == nullptr || !preparing->approaching);
   }
   bool uses_feedback() const;
-  bool braking() const { return states_.feed_hold() && !tapping_.active(); }
+  bool braking() const { return states_.feed_hold() && !tapping_.active() && !thread_.cutting(); }
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;
   AxisValues drive_position() const;
@@ -350,6 +357,7 @@ class ChannelCore {
   SkipMove skip_;
   ExactStopCheck exact_stop_;
   Tapping tapping_;
+  ThreadRun thread_;
   AxisLock lock_;
 
   Mode mode_ = Mode::JOG;

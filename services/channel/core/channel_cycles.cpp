@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves that are more than a path: those a skip input ends, and those a spindle follows.
+// Moves that are more than a path: those a skip input ends, those a spindle follows, and those that follow
+// one.
 #include "channel_core.hpp"
+#include "machine/alarm_constants.hpp"
+#include "machine/axes.hpp"
 
 namespace trunnion::channel {
 
@@ -42,6 +45,69 @@ void ChannelCore::finish_tapping() {
   flow().set_tapping(false);
   path().trajectory().set_limits(manual_.path_limits());
   path().restart();
+}
+
+// The axes are at rest. A thread may go on in the next blocks, which have to be read first.
+void ChannelCore::begin_thread() {
+  thread_.collect();
+  flow().set_threading(true);
+}
+
+void ChannelCore::cut_thread() {
+  if (flow().legs().empty()) return;
+  const auto& modal = flow().executing();
+  const auto& settings = machine_.stream(virtual_time_);
+  ThreadSpindle spindle;
+  const auto number = machine_.tapping_spindle().axis.value_or(0);
+  for (const auto& one : machine::spindles(*parameters_)) {
+    if (one.number == number) break;
+    ++spindle.column;
+  }
+  spindle.speed = modal.spindle_speed;
+  spindle.clockwise = modal.spindle_direction == language::SpindleDirection::cw;
+  spindle.cycle_seconds = machine_.cycle_seconds();
+  spindle.lead = settings.lead;
+  spindle.batch = settings.feedback_batch;
+  const auto fault = thread_.begin(path().position(), flow().legs(), manual_.path_limits(), spindle);
+  if (fault == ThreadPath::Fault::none) return;
+  const auto leg = thread_.path().faulty_leg();
+  thread_.end();
+  flow().refuse_thread(language::AlarmNumber::thread_too_short, leg);
+  flow().set_threading(false);
+}
+
+StreamCycle ChannelCore::step_thread(std::uint64_t cycle) {
+  const bool whole = thread_.broken().empty();
+  const auto now = thread_.step(cycle, states_.abandoned(), states_.feed_hold());
+  const auto& leg = thread_.path().leg(now.leg);
+  if (whole && !thread_.broken().empty())
+    event(alarm::thread_broken,
+          program_name() + ":" + std::to_string(leg.line) + ": " + thread_.broken() + ". Retract the tool");
+  if (thread_.following()) progress_.point = {leg.sequence, leg.line, now.fraction};
+  const auto* suspended = states_.suspended();
+  StreamCycle out;
+  out.shown.line = suspended != nullptr ? suspended->progress.executed.line : leg.line;
+  out.shown.feed = now.speed;
+  for (std::size_t i = 0; i < now.position.size(); ++i)
+    out.shown.distance_to_go[i] = leg.target[i] - now.position[i];
+  out.shown.position = now.position;
+  out.shown.sequence = leg.sequence;
+  out.setpoint = now.position;
+  if (in_machine_coordinates()) add_offset(out, path().machine_of(now.position));
+  out.line = leg.line;
+  out.spindle = now.angle;
+  out.at_rest = now.at_rest;
+  out.may_end = manual_.offset_at_rest();
+  return out;
+}
+
+void ChannelCore::finish_thread() {
+  if (!thread_.active()) return;
+  const bool cut = thread_.cutting();
+  const auto position = thread_.position();
+  thread_.end();
+  flow().set_threading(false);
+  if (cut) path().start(position, path().transformation(), path().tool_length());
 }
 
 }  // namespace trunnion::channel

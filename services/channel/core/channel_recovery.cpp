@@ -12,6 +12,7 @@ void ChannelCore::on_feedback(const idl::stream::Feedback& feedback) {
   link.on_feedback(feedback);
   skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
   exact_stop_.on_feedback(feedback);
+  thread_.on_feedback(feedback);
   remember_executed();
   if (first) handshake_.continue_numbers(link.epoch()), cycle_call_.continue_numbers(link.epoch());
   const auto mode = link.drive_mode();
@@ -102,8 +103,9 @@ void ChannelCore::recover() {
   states_.begin_interrupted();
   interrupted_ = {};
   progress_.executed.line = own->line;
-  event(alarm::interrupted,
-        "Program " + selected().name + " was interrupted in line " + std::to_string(own->line));
+  event(alarm::interrupted, "Program " + selected().name + " was interrupted in line " +
+                                std::to_string(own->line) +
+                                (own->in_thread ? ", in a thread: retract the tool and reset" : ""));
 }
 
 // After a power failure only the line is known: the operator decides whether to start from it.

@@ -36,6 +36,16 @@ CycleRequest cycle_request(const language::Command& command, const ProgramFlow& 
 
 // The axes are at rest and the drive has executed everything: what stopped the flow is handled now.
 void ChannelCore::run_pending(FlowState state) {
+  if (thread_.collecting() && state != FlowState::alarm) {
+    cut_thread();
+    return;
+  }
+  if (thread_.cutting()) {
+    const bool broken = !thread_.broken().empty();
+    finish_thread();
+    if (broken) finish(false);
+    return;
+  }
   if (tapping_.active() && state != FlowState::block_end) {
     finish_tapping();
     return;
@@ -99,6 +109,9 @@ void ChannelCore::execute(const language::Command& command) {
     case language::CommandKind::home:
       begin_program_homing(command);
       return;
+    case language::CommandKind::thread:
+      begin_thread();
+      return;
     case language::CommandKind::table:
       change_table(command);
       states_.wait();
@@ -107,8 +120,11 @@ void ChannelCore::execute(const language::Command& command) {
       begin_cycle(command);
       return;
     case language::CommandKind::message:
-      event(alarm::program_message, program_name() + ":" + std::to_string(command.line) + ": message " +
-                                        std::to_string(command.number) + ", see the comment of the line");
+      event(alarm::program_message,
+            program_name() + ":" + std::to_string(command.line) +
+                (command.number == language::line_message
+                     ? ": see the text behind $ of the line"
+                     : ": message " + std::to_string(command.number) + ", see the comment of the line"));
       flow().finish_pending();
       return;
     case language::CommandKind::tool:

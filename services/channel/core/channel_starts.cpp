@@ -11,6 +11,7 @@ namespace trunnion::channel {
 void ChannelCore::configure_flow(ProgramFlow& flow) {
   hold_guarded_axes();
   flow.set_block_skip(switches_.block_skip);
+  flow.set_coupled_threads(!switches_.dry_run && !switches_.auxiliary_lock && !lock_.any());
   flow.set_dry_run_feed(switches_.dry_run ? machine_.dry_run_feed() : 0);
   flow.set_offset(manual_.offset_target());
   tell_references();
@@ -29,6 +30,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   adopt_position();
   skip_.end();
   finish_tapping();
+  finish_thread();
   auto& text = program_cache_.open(selected());
   if (restart.sequence == 0) program_start_ = machine_start_;
   program_path_.start(machine_start_);

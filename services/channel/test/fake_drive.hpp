@@ -55,6 +55,8 @@ class FakeDrive {
   std::optional<Switch> switch_;
   /// Following error of the first axis in a cycle, mm; empty: the axes follow without error.
   std::function<double(std::uint64_t cycle, const std::vector<double>& row)> lag;
+  /// Angle of the encoder of a spindle in a cycle, rev; empty: there is none.
+  std::function<double(std::uint64_t cycle)> spindle_angle;
   /// Executes batches, at most `cycles` setpoints' worth, and reports.
   idl::stream::Feedback run(std::uint64_t cycles = ~0ull) {
     std::uint64_t done = 0;
@@ -75,6 +77,8 @@ class FakeDrive {
           for (std::size_t a = 0; a < position_.size(); ++a)
             actual_.push_back(rows.back()[a] - (a == 0 && lag ? lag(f.first + i, rows.back()) : 0));
           lines.push_back(f.lines[i]);
+          follows.push_back(f.follows_spindle);
+          if (spindle_angle) feedback.spindle_angle.push_back(spindle_angle(f.first + i));
         }
         for (std::size_t a = 0; a < position_.size(); ++a) position_[a] = rows.back()[a];
         next = f.first + f.count;
@@ -90,6 +94,7 @@ class FakeDrive {
     std::copy(actual_.end() - static_cast<long>(feedback.actual.size()), actual_.end(),
               feedback.actual.begin());
     feedback.first = next - feedback.count;
+    if (spindle_angle) feedback.spindle_speed = {0.0};
     feedback.mode = mode;
     feedback.tick = tick += done;
     feedback.axis_count = static_cast<std::uint16_t>(position_.size());
@@ -115,6 +120,7 @@ class FakeDrive {
   std::vector<std::vector<double>> rows;
   std::vector<std::uint32_t> lines;
   std::vector<std::optional<double>> spindle;  // of each row, when one was coupled
+  std::vector<bool> follows;  // of each row: the drive goes to the place of the measured angle
 
  private:
   // The axes follow without error: what a cycle commands is reached before the next one.

@@ -153,6 +153,7 @@ void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emerge
   bool all = !axes_.empty();
   for (const auto& axis : axes_) all = all && axis.number < enable.size() && (enable[axis.number] & 1) != 0;
   enable_.demand(all && !emergency_stop);
+  spindles_.run_down(!enable_.granted());
   slaves_.demand_off(enable);
   couple_slaves();
   if (enable_.demanded()) {
@@ -350,9 +351,11 @@ void DriveCore::follow() {
 // Hands the setpoints of this period over and reads the machine.
 void DriveCore::exchange() {
   ++row_.number;
+  const bool controlled_before = row_.controls_spindles();
   row_.controlled = mode_ != Mode::OFF;
+  row_.spindles_controlled = spindles_run_down();
   row_.moving = mode_ == Mode::FOLLOWING && any_active();
-  row_.enable = row_.controlled || enable_.granted();
+  row_.enable = row_.controls_spindles() || enable_.granted();
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     auto& axis = row_.axes[i];
     const double velocity = row_.controlled ? (command_[i] - axis.position) / dt_ : 0;
@@ -360,15 +363,15 @@ void DriveCore::exchange() {
     axis = {command_[i], velocity, acceleration};
   }
   spindles_.run_down(!enable_.granted());
-  spindles_.step(status_.spindles, row_.controlled, row_.spindles);
+  if (!controlled_before && row_.controlled) spindles_.await_rest();
+  spindles_.step(status_.spindles, row_.controlled, row_.spindles, row_.spindles_controlled);
   spindles_.report(status_.spindles, events_);
   if (testing() && (mode_ == Mode::OFF || mode_ == Mode::BRAKING || mode_ == Mode::HELD))
     hardware_->tester()->end(idl::servo::TestPhase::ENDED_BY_STOP);
   hardware_->exchange(row_, status_, rows_);
   watch_probe();
-  if (row_.controlled) {
-    supervise();
-  } else if (!row_.enable) {
+  if (row_.controls_spindles()) supervise();
+  if (!row_.controlled && (!row_.enable || row_.spindles_controlled)) {
     for (std::size_t i = 0; i < axes_.size(); ++i)
       command_[i] = row_.axes[i].position = status_.axes[i].hold_position;
   }

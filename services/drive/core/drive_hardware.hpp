@@ -50,18 +50,26 @@ struct SpindleSetpoint {
 struct SetpointRow {
   std::uint64_t number = 0;  ///< counts the periods of this process from 1 on
   bool enable = false;       ///< the drives shall be switched on; false: braked or held by the hardware
-  /// The axes follow the row. When false its positions are without effect and the spindles run down.
+  /// The axes follow the row. When false its positions are without effect, and the spindles run down unless
+  /// they are controlled alone.
   bool controlled = false;
+  /// The axes do not follow the row, but the spindles do: synchronized ones run down together. `enable` stays
+  /// on meanwhile, and the axes are held where they are.
+  bool spindles_controlled = false;
   bool moving = false;  ///< a channel has the axes
   std::vector<AxisSetpoint> axes;
   std::vector<SpindleSetpoint> spindles;
   bool probe_on = false;  ///< the touch probe is switched on
+
+  bool controls_spindles() const { return controlled || spindles_controlled; }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("number", self.number), visit("enable", self.enable), visit("controlled", self.controlled);
     visit("moving", self.moving);
     visit("axes", self.axes), visit("spindles", self.spindles), visit("probe_on", self.probe_on);
+    if (!std::is_const_v<Self> || self.spindles_controlled)
+      visit("spindles_controlled", self.spindles_controlled);
   }
 };
 

@@ -55,6 +55,8 @@ class SpindleSynchronization {
   double step(const SynchronizationOrder& order, const MasterMotion& master, const SpindleStatus& slave);
 
   bool active() const { return active_; }
+  /// It has had the speed of its master and counts turns: a part may hold both.
+  bool closed() const { return closed_; }
   /// The loop is closed, and the error is within the window.
   bool synchronized() const;
   /// Once, when a spindle that was synchronized is more than half a turn off.

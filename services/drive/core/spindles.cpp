@@ -69,17 +69,20 @@ double Spindles::commanded_speed(std::size_t i) const {
 }
 
 void Spindles::step(const std::vector<SpindleStatus>& status, bool controlled,
-                    std::vector<SpindleSetpoint>& out) {
-  synchronized_.judge(couplings_, status, controlled);
+                    std::vector<SpindleSetpoint>& out, bool running_down) {
+  synchronized_.judge(couplings_, status, controlled, running_down);
   if (synchronized_.any()) limit_orientations();
   for (std::size_t i = 0; i < couplings_.size(); ++i) {
     auto setpoint = couplings_[i].setpoint();
     setpoint.speed = commanded_speed(i);
-    const bool follows = synchronized_.follows(i);
-    setpoint = orientations_[i].step(setpoint, status[i], controlled && !follows);
-    const bool ramps = controlled && !setpoint.coupled && !follows && !synchronized_.leads(i);
+    const bool follows = synchronized_.follows(i), leads = synchronized_.leads(i);
+    const bool waits = synchronized_.waits(i);
+    if (waits) setpoint.speed = 0;
+    setpoint = orientations_[i].step(setpoint, status[i], controlled && !follows && !waits);
+    const bool ramps = controlled && !setpoint.coupled && !follows && !leads;
     const double reference = ramps_[i].step(ramps ? setpoint.speed : status[i].speed, ramps);
     if (ramps) setpoint.speed = reference;
+    if (running_down && !follows && !leads) setpoint.speed = 0, setpoint.coupled = false;
     setpoint.gear = gears_[i].in_force();
     out[i] = setpoint;
   }
@@ -87,20 +90,20 @@ void Spindles::step(const std::vector<SpindleStatus>& status, bool controlled,
 }
 
 void Spindles::fill(const std::vector<SpindleStatus>& status, const std::vector<SpindleSetpoint>& row,
-                    bool controlled, idl::stream::Feedback& out) const {
+                    bool controlled, idl::stream::Feedback& out, bool running_down) const {
   out.spindle_speed.resize(size());
   out.spindle_oriented.resize(size());
   out.spindles.resize(size());
   for (std::size_t i = 0; i < size(); ++i) {
     out.spindle_speed[i] = status[i].speed;
     out.spindle_oriented[i] = orientations_[i].oriented(status[i]) ? 1 : 0;
-    out.spindles[i] = state(i, status[i], row[i], controlled);
+    out.spindles[i] = state(i, status[i], row[i], controlled, running_down);
   }
 }
 
 // A speed within the window, and that of the PLC's signal of it.
 SpindleState Spindles::state(std::size_t i, const SpindleStatus& status, const SpindleSetpoint& row,
-                             bool controlled) const {
+                             bool controlled, bool running_down) const {
   constexpr double least_window = 5;  // 1/min
   constexpr double seconds_of_minute = 60;
   SpindleState state;
@@ -120,12 +123,13 @@ SpindleState Spindles::state(std::size_t i, const SpindleStatus& status, const S
     state.condition = !at_speed        ? SpindleCondition::SPINDLE_ACCELERATING
                       : commanded == 0 ? SpindleCondition::SPINDLE_STOPPED
                                        : SpindleCondition::SPINDLE_AT_SPEED;
-    state.reference = controlled && !row.coupled ? row.speed : 0;
+    state.reference = (controlled || running_down) && !row.coupled ? row.speed : 0;
   }
   state.homed = status.homed;
   state.angle = status.angle;
   state.gear = gears_[i].in_force();
   state.torque = status.torque;
+  state.angle = status.angle;
   synchronized_.fill(state, i);
   return state;
 }

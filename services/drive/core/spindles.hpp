@@ -40,17 +40,21 @@ class Spindles {
   void couple(const std::vector<idl::plc::SpindleCoupling>& couplings);
   /// Masters of synchronized spindles slow down to a standstill whatever they are ordered.
   void run_down(bool on) { synchronized_.run_down(on); }
+  /// Before the first period under control: synchronizations that are requested now wait until their spindles
+  /// are at rest.
+  void await_rest() { synchronized_.await_rest(); }
   const SynchronizedSpindles& synchronization() const { return synchronized_; }
 
   SpindleCoupling& coupling(int column) { return couplings_[static_cast<std::size_t>(column)]; }
   /// Coupled spindles continue at the speed of their last setpoint for `cycles`.
   void lead_on(double cycles);
 
-  /// One period: the setpoint of every spindle.
-  void step(const std::vector<SpindleStatus>& status, bool controlled, std::vector<SpindleSetpoint>& out);
-  /// `row`: of the last step(), and whether it was `controlled`.
+  /// One period: the setpoint of every spindle. `running_down`: only synchronized spindles are controlled.
+  void step(const std::vector<SpindleStatus>& status, bool controlled, std::vector<SpindleSetpoint>& out,
+            bool running_down = false);
+  /// `row`: of the last step(), and whether it was `controlled` or `running_down`.
   void fill(const std::vector<SpindleStatus>& status, const std::vector<SpindleSetpoint>& row,
-            bool controlled, idl::stream::Feedback& out) const;
+            bool controlled, idl::stream::Feedback& out, bool running_down = false) const;
 
   /// Appends what is wrong with the parameters. Not cyclic.
   void report_parameters(std::vector<DriveEvent>& events) const;
@@ -78,7 +82,7 @@ class Spindles {
   /// What the PLC demands, within the gear in force, 1/min.
   double commanded_speed(std::size_t column) const;
   idl::stream::SpindleState state(std::size_t column, const SpindleStatus& status, const SpindleSetpoint& row,
-                                  bool controlled) const;
+                                  bool controlled, bool running_down) const;
   void limit_orientations();
 
   std::vector<machine::AxisInfo> axes_;

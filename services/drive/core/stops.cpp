@@ -48,6 +48,12 @@ void DriveCore::switch_off() {
   mode_ = Mode::OFF;
 }
 
+// Stop category 1: the drives of spindles that hold one part stay on until both are at rest.
+bool DriveCore::spindles_run_down() const {
+  return mode_ == Mode::OFF && !enable_.lost() && hardware_->enabled() &&
+         spindles_.synchronization().must_run_down(status_.spindles);
+}
+
 // The drive of an axis that does not follow cannot be braked by setpoints, and the other axes stop with it.
 void DriveCore::supervise() {
   for (std::size_t i = 0; i < axes_.size(); ++i) {

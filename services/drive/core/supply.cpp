@@ -46,7 +46,7 @@ bool DriveCore::can_step(bool give_up) const {
     case Mode::HELD:
       return streams_.resume_demanded() && prefilled(supply());
     case Mode::OFF:
-      return hardware_->running_out();
+      return hardware_->running_out() || row_.spindles_controlled || spindles_run_down();
     case Mode::FOLLOWING:
       break;
   }

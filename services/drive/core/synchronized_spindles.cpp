@@ -7,11 +7,13 @@
 #include <string>
 
 #include "machine/alarm_constants.hpp"
+#include "timeouts.hpp"
 
 namespace trunnion::drive {
 namespace {
 
 constexpr std::size_t most_numbered_spindles = 8;  // that the PLC can name
+constexpr double rest_speed = 5;                   // 1/min, at most, as SPINDLE_STOPPED has it
 
 std::string name_of(std::size_t spindle, const std::vector<machine::AxisInfo>& spindles) {
   return spindle < spindles.size() ? "Spindle " + spindles[spindle].name
@@ -46,7 +48,10 @@ DriveEvent event_of(const SynchronizationFinding& finding, const std::vector<mac
     case SynchronizationProblem::not_homed:
       event.alarm = &alarm::spindle_not_homed;
       event.part = part_of(finding.cause, spindles);
-      event.text = refused + cause + " has not passed its index mark since the start; turn it" + again;
+      event.text = refused + cause + " has not passed its index mark since the start; ";
+      event.text += finding.kept_at_rest ? "both are kept at rest: open a chuck, withdraw the request, turn "
+                                           "it, then give the request again"
+                                         : "turn it" + again;
       break;
     case SynchronizationProblem::no_acceleration:
       event.text = refused + "the acceleration of " + cause + " cannot be computed (alarm 182)" + again;
@@ -59,6 +64,15 @@ DriveEvent event_of(const SynchronizationFinding& finding, const std::vector<mac
       std::snprintf(error, sizeof error, "%.1f deg", finding.error * 360);
       event.text = slave + " is " + error + " from its angle to " + master +
                    ": stop both and look for slip, overload or a wrong gain";
+      break;
+    }
+    case SynchronizationProblem::separated: {
+      char speeds[2][32];
+      std::snprintf(speeds[0], sizeof speeds[0], "%.0f 1/min", finding.speed);
+      std::snprintf(speeds[1], sizeof speeds[1], "%.0f 1/min", finding.master_speed);
+      event.text = slave + " turned at " + speeds[0] + " and its master " + master + " at " + speeds[1] +
+                   " when their drives went off, and each ran down by itself: open a chuck and check the "
+                   "part that both have held";
       break;
     }
   }
@@ -85,16 +99,58 @@ void SynchronizedSpindles::couple(const std::vector<idl::plc::SpindleCoupling>& 
     auto& slave = slaves_[i];
     const auto found = std::find_if(couplings.begin(), couplings.end(),
                                     [&](const auto& coupling) { return coupling.slave == i; });
-    const bool ordered = found != couplings.end();
-    if (!ordered || !slave.ordered || found->master != slave.order.master ||
-        found->reverse != slave.order.reverse) {
-      slave.control.end();
-      slave.refused = false;
-    }
-    slave.ordered = ordered;
-    slave.order = ordered ? *found : idl::plc::SpindleCoupling{};
+    slave.requested = found != couplings.end();
+    slave.request = slave.requested ? *found : idl::plc::SpindleCoupling{};
+    slave.deferred = keeps(slave);
+    if (!slave.deferred) take(slave);
   }
-  if (!any()) std::fill(masters_.begin(), masters_.end(), Master{});
+  if (!any()) forget_masters();
+}
+
+void SynchronizedSpindles::take(Slave& slave) {
+  slave.deferred = false;
+  if (!slave.requested || !slave.ordered || slave.request.master != slave.order.master ||
+      slave.request.reverse != slave.order.reverse) {
+    slave.control.end();
+    slave.refused = slave.waits = false;
+  }
+  slave.ordered = slave.requested;
+  slave.order = slave.request;
+}
+
+void SynchronizedSpindles::forget_masters() { std::fill(masters_.begin(), masters_.end(), Master{}); }
+
+void SynchronizedSpindles::await_rest() {
+  for (auto& slave : slaves_) {
+    if (slave.deferred) take(slave);
+    slave.waits = slave.ordered && !slave.control.active();
+  }
+  if (!any()) forget_masters();
+}
+
+bool SynchronizedSpindles::waits(std::size_t spindle) const {
+  for (std::size_t i = 0; i < slaves_.size(); ++i)
+    if (slaves_[i].waits && (i == spindle || slaves_[i].master() == spindle)) return true;
+  return false;
+}
+
+bool SynchronizedSpindles::at_rest(std::size_t slave, const std::vector<SpindleStatus>& status) const {
+  return std::abs(status[slave].speed) <= rest_speed &&
+         std::abs(status[slaves_[slave].master()].speed) <= rest_speed;
+}
+
+bool SynchronizedSpindles::ramps() const {
+  return std::any_of(slaves_.begin(), slaves_.end(), [&](const auto& slave) {
+    return slave.control.closed() && masters_[slave.master()].reference != 0;
+  });
+}
+
+bool SynchronizedSpindles::must_run_down(const std::vector<SpindleStatus>& status) const {
+  if (settling_ * period_ >= spindle_rest_timeout) return false;
+  if (ramps()) return true;
+  for (std::size_t i = 0; i < count_; ++i)
+    if (slaves_[i].control.closed() && !at_rest(i, status)) return true;
+  return false;
 }
 
 bool SynchronizedSpindles::any() const {
@@ -136,25 +192,36 @@ SynchronizationFinding SynchronizedSpindles::obstacle(std::size_t slave,
 }
 
 void SynchronizedSpindles::judge(const std::vector<SpindleCoupling>& streams,
-                                 const std::vector<SpindleStatus>& status, bool controlled) {
+                                 const std::vector<SpindleStatus>& status, bool controlled,
+                                 bool running_down) {
   findings_.clear();
+  settling_ = running_down && !ramps() ? settling_ + 1 : 0;
   if (!any()) return;
   for (std::size_t i = 0; i < slaves_.size(); ++i) {
     auto& slave = slaves_[i];
+    if (slave.deferred && !keeps(slave)) take(slave);
     if (!slave.ordered || slave.refused) continue;
-    if (!controlled) {
+    if (running_down ? !slave.control.closed() : !controlled) {
+      if (slave.control.closed() && !at_rest(i, status))
+        findings_.push_back({SynchronizationProblem::separated, i, slave.master(), i, 0, status[i].speed,
+                             status[slave.master()].speed});
       slave.control.end();
       continue;
     }
-    const auto finding = obstacle(i, streams, status);
+    auto finding = obstacle(i, streams, status);
     if (finding.problem != SynchronizationProblem::none) {
       slave.control.end();
       slave.refused = true;
+      // A part may hold both since the drive was restarted. Of other requests nothing was ever in force.
+      slave.waits = slave.waits && finding.problem == SynchronizationProblem::not_homed;
+      finding.kept_at_rest = slave.waits;
       findings_.push_back(finding);
-    } else if (!slave.control.active()) {
+    } else if (!slave.control.active() && (!slave.waits || at_rest(i, status))) {
+      slave.waits = false;
       slave.control.begin(status[i].speed);
     }
   }
+  if (!any()) forget_masters();
 }
 
 double SynchronizedSpindles::lowest_acceleration(std::size_t spindle, double speed) const {

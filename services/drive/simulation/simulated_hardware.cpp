@@ -145,7 +145,8 @@ void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, Encod
     if (on && !home.on) home.latch = servos_[i].encoder();
     home.on = on;
   }
-  for (std::size_t i = 0; i < spindles_.size(); ++i) spindles_[i].step(row.spindles[i], row.controlled);
+  for (std::size_t i = 0; i < spindles_.size(); ++i)
+    spindles_[i].step(row.spindles[i], row.controls_spindles());
   for (std::size_t i = 0; i < servos_.size(); ++i) encoder_[i] = servos_[i].encoder();
   for (std::size_t i = 0; i < spindles_.size(); ++i) angle_[i] = spindles_[i].angle();
   rows.encoder_row({row.number, encoder_, angle_});

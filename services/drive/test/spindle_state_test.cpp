@@ -77,6 +77,16 @@ TEST(SpindleState, TheSpindleFollowsItsRamp) {
   EXPECT_EQ(m.feedback.spindles[0].condition, SpindleCondition::SPINDLE_AT_SPEED);
 }
 
+// 600 1/min are 10 rev/s, 2.5 turns in 250 ms. It has had that speed since 0.18 s at 20000 deg/s2.
+TEST(SpindleState, HasTheAngleOfTheEncoderWithItsTurns) {
+  Machine m(with_spindle());
+  EXPECT_EQ(m.periods(1).angle, 0);
+  m.core.set_spindle_speed({600});
+  const double before = m.periods(1000).angle;
+  EXPECT_NEAR(m.periods(250).angle - before, 2.5, 1e-9);
+  EXPECT_GT(before, 1);
+}
+
 TEST(SpindleState, UnusableDataOfTheRampAreAnAlarmAtTheStart) {
   auto p = with_spindle();
   p.values[105971] = {1, ""}, p.values[105973] = {4000, ""};

@@ -240,5 +240,32 @@ TEST(ChannelSetup, AMoveOutOfTravelIsToldWithLineAxisAndLimits) {
   EXPECT_EQ(setup.travel_error({}, move), "");
 }
 
+TEST(ChannelSetup, ProgramsAreInTheDialectOfTheChannel) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const auto alarm = [&] {
+    ChannelSetup setup(tables);
+    return test::read(setup, "G4 F1\nM2").alarm;
+  };
+  EXPECT_EQ(alarm(), 1108u) << "G4 of ISO needs P, X or U";
+  tables.parameters.values[40959] = {1, ""};
+  EXPECT_EQ(alarm(), 0u);
+}
+
+TEST(ChannelSetup, ExternalParametersOfNumAreThoseOfTheSpindles) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const auto first = 100000 + 1000u * ChannelSetup(tables).tapping_spindle().axis.value();
+  tables.parameters.values[first + 974] = {2, ""};
+  tables.parameters.values[first + 975] = {300, ""};
+  tables.parameters.values[first + 972] = {1500, ""};
+  const ChannelSetup setup(tables);
+  // 2 degrees of 360 are 2 / 360 * 65536 = 364.089 parts of a revolution.
+  EXPECT_NEAR(setup.external_parameter(90310).value(), 364.0889, 1e-4);
+  EXPECT_EQ(setup.external_parameter(90320), 300);
+  EXPECT_EQ(setup.external_parameter(90330), setup.tapping_spindle().acceleration);
+  EXPECT_EQ(setup.external_parameter(90370), 1500);
+  EXPECT_EQ(setup.external_parameter(90323), std::nullopt) << "the machine has no fourth spindle";
+  EXPECT_EQ(setup.external_parameter(91124), std::nullopt) << "its state is not known when the text is read";
+}
+
 }  // namespace
 }  // namespace trunnion::channel_setup

@@ -120,6 +120,25 @@ inline std::vector<WrongMotion> wrong_motion() {
       {value_range, "G10 L30 P1 R1", 1, 5, ": L30"},
       {value_range, "G5.1 Q3", 1, 6, ": Q3"},
       {missing_word, "G92", 1, 1, ": G92, needs an axis or S"},
+      {thread_lead_missing, "S100 M3\nG33 Z-5", 2, 5, ": Z-5"},
+      {thread_lead_missing, "S100 M3\nG33 F0 Z-5", 2, 5, ": F0"},
+      {thread_lead_missing, "F100 S100 M3\nG33 Z-5", 2, 5, ": Z-5"},  // a feed is no lead
+      {thread_spindle_stopped, "S100\nG33 Z-5 F1", 2, 5, ": Z-5"},
+      {thread_spindle_stopped, "M3\nG33 Z-5 F1", 2, 5, ": Z-5"},
+      {thread_spindle_stopped, "S100 M3\nG33 Z-5 F1\nM5\nZ-9", 4, 1, ": Z-9"},
+      // 2 mm at 1901 1/min; X goes a fifth of the way. 95 % of 4000.
+      {thread_speed, "S1901 M3\nG33 X1 Z-5 F2", 2, 5, ": X1, Z 3802 mm/min, at most 3800"},
+      {thread_impossible, "S100 M3 G43.4 H1\nG33 Z-5 F1", 2, 5, ": Z-5, tool tip control is active"},
+      {thread_impossible, "S100 M3\nG33 Z-5 C9 F1", 2, 9, ": C9, a rotary axis moves"},
+      {thread_impossible, "S100 M3\nG41 D1\nG33 Z-5 F1", 3, 5, ": Z-5, cutter compensation is active"},
+      {thread_impossible, "S100 M3 G93\nG33 Z-5 F1", 2, 5, ": Z-5, G93 is active"},
+      {thread_impossible, "G96 S100 M3\nG33 Z-5 F1", 2, 5, ": Z-5, G96 is active"},
+      // The square of the lead is 1 - 2 * 0.1 * 5 at the end.
+      {thread_lead_change, "S100 M3\nG34 Z-5 F1 K-0.1", 2, 5, ": Z-5"},
+      {missing_word, "S100 M3\nG34 Z-5 F1", 2, 5, ": Z-5, needs K"},
+      {value_range, "S100 M3\nG33 Z-5 F1 Q360", 2, 12, ": Q360, degrees, from 0 to below 360"},
+      {unused_word, "S100 M3\nG33 Z-5 F1 K1", 2, 12, ": K1"},
+      {group_twice, "G33 G34 Z1", 1, 5, ": G34"},
       {group_twice, "G54 G55", 1, 5, ": G55"},
       {group_twice, "G41 G40", 1, 5, ": G40"},
   };

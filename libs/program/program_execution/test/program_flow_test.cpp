@@ -41,6 +41,10 @@ class SlowText final : public language::TextSource {
 /// X Y Z of 400 mm to either side, a flow and its trajectory.
 struct Flow : ::testing::Test {
   Flow() : machine(0) {
+    machine.configure(axes());
+    flow.on_move = [this](const language::Command& move) { moves.push_back(move); };
+  }
+  static machine::Parameters axes() {
     machine::Parameters parameters;
     for (std::uint32_t a = 0; a < 3; ++a) {
       parameters.values[40001 + a] = {static_cast<double>(a), ""};
@@ -48,8 +52,7 @@ struct Flow : ::testing::Test {
       parameters.values[100006 + a * 1000] = {400, ""};
       parameters.values[100007 + a * 1000] = {-400, ""};
     }
-    machine.configure(parameters);
-    flow.on_move = [this](const language::Command& move) { moves.push_back(move); };
+    return parameters;
   }
   void start(const std::string& program, const Entry& entry = {}) {
     text = program;
@@ -438,6 +441,126 @@ TEST_F(Flow, AnAlarmOfAStrokeLastsWhenTheTappingHasEnded) {
   flow.set_tapping(false);
   EXPECT_EQ(run(), FlowState::alarm);
   EXPECT_EQ(&flow.alarm(), &alarm::travel_limit);
+}
+
+/// With a spindle.
+struct ThreadFlow : Flow {
+  ThreadFlow() {
+    auto parameters = axes();
+    parameters.values[103000] = {0, "S"}, parameters.values[103001] = {10, ""};
+    machine.configure(parameters);
+  }
+  /// Up to the first thread; what comes before is done.
+  void reach_thread(const std::string& program) {
+    start(program);
+    for (int i = 0; i < 5 && run() == FlowState::command && flow.pending().kind != CommandKind::thread; ++i)
+      flow.finish_pending();
+    ASSERT_EQ(flow.pending().kind, CommandKind::thread);
+  }
+};
+
+// 2 mm in each of 100 revolutions a minute.
+TEST_F(ThreadFlow, AThreadThatIsNotCoupledIsALineOfItsOwnSpeed) {
+  flow.set_dry_run_feed(2000);
+  start("G90 S100 M3\nG33 Z-5 F2\nG1 X1 F300\n");
+  for (int i = 0; i < 5 && run() == FlowState::command; ++i) flow.finish_pending();
+  ASSERT_EQ(moves.size(), 2u);
+  EXPECT_EQ(moves[0].kind, CommandKind::line);
+  EXPECT_NEAR(moves[0].modal.feed, 200, 1e-9);
+  EXPECT_EQ(moves[1].modal.feed, 2000);
+  EXPECT_EQ(trajectory->position()[language::Z], -5);
+}
+
+TEST_F(ThreadFlow, CoupledThreadsThatFollowEachOtherAreCollectedAtRest) {
+  flow.set_coupled_threads(true);
+  reach_thread("G90 S100 M3\nG0 X10\nG33 Z-5 F2 Q90\nX12 Z-9 F1\nG0 X20\n");
+  EXPECT_EQ(x(), 10);
+  EXPECT_EQ(flow.fill(false), FlowState::command) << "as often as it is asked";
+  flow.set_threading(true);
+  EXPECT_EQ(flow.fill(true), FlowState::full) << "single block does not stop within a thread";
+  ASSERT_EQ(flow.legs().size(), 2u);
+  EXPECT_EQ(flow.legs()[0].lead, 2);
+  EXPECT_EQ(flow.legs()[0].start_angle, 90);
+  EXPECT_EQ(flow.legs()[0].line, 3u);
+  EXPECT_EQ(flow.legs()[1].lead, 1);
+  EXPECT_EQ(flow.legs()[1].target[language::Z], -9);
+  EXPECT_EQ(flow.fill(false), FlowState::full) << "it reads on only when they are done";
+  EXPECT_EQ(moves.size(), 3u) << "a rapid and the two";
+  trajectory->start(flow.legs()[1].target, language::Transformation::none, 0);
+  flow.set_threading(false);
+  EXPECT_EQ(run(), FlowState::end);
+  EXPECT_EQ(x(), 20);
+}
+
+TEST_F(ThreadFlow, AnExactStopAndAnotherCommandEndAThread) {
+  flow.set_coupled_threads(true);
+  reach_thread("G90 S100 M3\nG9 G33 Z-5 F2\nZ-9\nM8\nZ-12\n");
+  for (const double end : {-5.0, -9.0, -12.0}) {
+    ASSERT_EQ(flow.pending().kind, CommandKind::thread);
+    flow.set_threading(true);
+    flow.fill(false);
+    ASSERT_EQ(flow.legs().size(), 1u);
+    EXPECT_EQ(flow.legs()[0].target[language::Z], end);
+    trajectory->start(flow.legs()[0].target, language::Transformation::none, 0);
+    flow.set_threading(false);
+    if (run() == FlowState::command && flow.pending().kind == CommandKind::auxiliary) {
+      flow.finish_pending();
+      run();
+    }
+  }
+}
+
+TEST_F(ThreadFlow, AThreadOutOfTravelIsAnAlarmBeforeItBegins) {
+  flow.set_coupled_threads(true);
+  reach_thread("G90 S100 M3\nG33 Z-5 F2\nZ-401\n");
+  flow.set_threading(true);
+  EXPECT_EQ(flow.fill(false), FlowState::alarm);
+  EXPECT_EQ(&flow.alarm(), &alarm::travel_limit);
+}
+
+TEST_F(ThreadFlow, ARefusedLegIsAnAlarmAtItsLine) {
+  flow.set_coupled_threads(true);
+  reach_thread("G90 S100 M3\nG33 Z-5 F2\nZ-5.1\nG0 X1\n");
+  flow.set_threading(true);
+  flow.fill(false);
+  flow.refuse_thread(AlarmNumber::thread_too_short, 1);
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_text().rfind("3: thread is too short", 0), 0u) << flow.alarm_text();
+  EXPECT_EQ(flow.placed_alarm().line, 3u);
+}
+
+TEST_F(ThreadFlow, NoProgramBeginsOrContinuesWithinAThread) {
+  flow.set_coupled_threads(true);
+  const std::string program = "G90 S100 M3\nG33 Z-5 F2\nZ-9\nG0 X20\n";
+  reach_thread(program);
+  Entry restart;
+  restart.restart = {flow.pending().sequence, 0.5, {}};
+  start(program, restart);
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::not_resumable));
+  for (const std::uint32_t line : {2u, 3u, 4u}) {
+    Entry entry;
+    entry.line = line;
+    start(program, entry);
+    ASSERT_EQ(run(), FlowState::found);
+    trajectory->start(flow.position(), language::Transformation::none, 0);
+    const auto state = run();
+    EXPECT_EQ(state, line == 2 ? FlowState::command : line == 3 ? FlowState::alarm : FlowState::end);
+    if (line == 3) {
+      EXPECT_EQ(flow.alarm_text(), "3: the line continues a thread: start before the first block of it");
+    }
+  }
+}
+
+TEST_F(Flow, AThreadNeedsASpindle) {
+  start("G90 S100 M3\nG33 Z-5 F2\n");
+  FlowState state = run();
+  for (int i = 0; i < 5 && state == FlowState::command; ++i) {
+    flow.finish_pending();
+    state = run();
+  }
+  EXPECT_EQ(state, FlowState::alarm);
+  EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::tapping_spindle_missing));
 }
 
 TEST_F(Flow, ADryRunReplacesFeedsFromTheNextStartOn) {

@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "language/num_dialect.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "language/arithmetic.hpp"
+#include "language/letters.hpp"
+#include "language/macro_call.hpp"
+#include "language/num_codes.hpp"
+#include "language/num_expression.hpp"
+#include "language/scanner.hpp"
+#include "text/utf8.hpp"
+
+namespace trunnion::language {
+namespace {
+
+constexpr double highest_sequence_number = 99999999;
+constexpr double largest_parameter = 2147483647;
+constexpr std::uint32_t num_letters = letter_bits("ABCFHRSTUVWXYZ");
+
+/// E and a letter: the words of functions that are not there.
+struct PairWord {
+  char second;
+  const char* function;
+};
+constexpr std::array pair_words = {
+    PairWord{'A', "thread cutting"},         PairWord{'B', "thread cutting"},
+    PairWord{'C', "angle of a spindle"},     PairWord{'H', "rigid tapping"},
+    PairWord{'K', "rigid tapping"},          PairWord{'R', "rigid tapping"},
+    PairWord{'X', "resumed thread cutting"}, PairWord{'Z', "resumed thread cutting"},
+};
+
+Fault program_of(double value, std::uint16_t at, std::uint32_t& number) {
+  const double tenths = std::round(value * 10);
+  if (std::abs(value * 10 - tenths) > 1e-6) return {AlarmNumber::not_an_integer, at};
+  if (!(tenths >= 10 && tenths <= 999999)) return {AlarmNumber::value_range, at};
+  const auto whole = static_cast<std::uint32_t>(tenths);
+  number = whole / 10 + whole % 10 * program_tenth;
+  return {};
+}
+
+/// A % and its number.
+Fault read_num_head(Scanner& scanner, std::uint32_t& number) {
+  const std::uint16_t at = scanner.offset();
+  scanner.advance();
+  scanner.skip_blanks();
+  const Decimal decimal = scanner.number();
+  if (decimal.status == DecimalStatus::missing) return {AlarmNumber::number_missing, at};
+  if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
+  return program_of(decimal.value, at, number);
+}
+
+Fault read_sequence_number(Scanner& scanner, std::uint16_t at, std::uint32_t& number) {
+  scanner.skip_blanks();
+  const Decimal decimal = scanner.number();
+  if (decimal.status == DecimalStatus::missing) return {AlarmNumber::number_missing, at};
+  if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
+  if (decimal.value != std::floor(decimal.value)) return {AlarmNumber::not_an_integer, at};
+  if (decimal.value < 0 || decimal.value > highest_sequence_number) return {AlarmNumber::value_range, at};
+  number = static_cast<std::uint32_t>(decimal.value);
+  return {};
+}
+
+/// Past blanks and comments; false at an open comment.
+bool skip_remarks(Scanner& scanner) {
+  while (scanner.more() && scanner.peek() == '(') {
+    if (!scanner.skip_comment()) return false;
+  }
+  return true;
+}
+
+/// Takes the word that opens, divides or closes a structure.
+Statement take_structure(Scanner& scanner) {
+  if (scanner.take_word("IF")) return Statement::begin_if;
+  if (scanner.take_word("ELSE")) return Statement::else_;
+  if (scanner.take_word("ENDI")) return Statement::end_if;
+  if (scanner.take_word("WHILE")) return Statement::begin_while;
+  if (scanner.take_word("ENDW")) return Statement::end_while;
+  return Statement::none;
+}
+
+class NumReader {
+ public:
+  NumReader(std::string_view line, SkipLevels skip, Variables& variables, Block& block)
+      : line_(line),
+        skip_(skip),
+        scanner_(line),
+        variables_(variables),
+        expressions_(scanner_, variables),
+        block_(block) {}
+
+  Fault read() {
+    block_.clear();
+    if (scanner_.more() && scanner_.peek() == '/') {
+      scanner_.advance();
+      block_.skipped = (skip_ & 1u) != 0;
+      if (block_.skipped) return {};
+    }
+    if (scanner_.more() && scanner_.peek() == '%') {
+      if (const Fault fault = read_num_head(scanner_, block_.program_number)) return fault;
+      block_.head = Head::program;
+    }
+    while (!done_ && scanner_.more()) {
+      if (const Fault fault = item()) return fault;
+    }
+    return complete();
+  }
+
+ private:
+  Fault item() {
+    const char c = scanner_.peek();
+    const char upper = letter(c);
+    const std::uint16_t at = scanner_.offset();
+    if (upper != '\0') {
+      const Statement statement = take_structure(scanner_);
+      if (statement != Statement::none) return structure(statement, at);
+      if (upper == 'E') return e_item(at);
+      if (upper == 'L') return assign_variable(at);
+      const char second = letter(scanner_.peek(1));
+      if (second != '\0' && second != 'E' && second != 'L') return {AlarmNumber::unknown_instruction, at};
+      return word(upper, at);
+    }
+    if (c == '(') return scanner_.skip_comment() ? Fault{} : Fault{AlarmNumber::open_comment, at};
+    if (c == '$') {
+      scanner_.advance();
+      block_.message = scanner_.more();
+      done_ = true;
+      return {};
+    }
+    if (c == '%' || c == '/') return {AlarmNumber::misplaced_head, at};
+    const bool broken = text::valid_utf8_prefix(line_.substr(at, 4)) == 0;
+    return {broken ? AlarmNumber::not_utf8 : AlarmNumber::unknown_character, at};
+  }
+
+  Fault structure(Statement statement, std::uint16_t at) {
+    if (any_ || block_.head != Head::none) return {AlarmNumber::statement_not_first, at};
+    any_ = true;
+    block_.statement = statement;
+    block_.at = at;
+    const bool branch = statement == Statement::begin_if;
+    if (!branch && statement != Statement::begin_while) return end_of_block();
+    if (const Fault fault = expressions_.condition(block_.condition)) return fault;
+    if (!scanner_.more() || !scanner_.take_word(branch ? "THEN" : "DO"))
+      return {AlarmNumber::operand_missing, scanner_.offset(), branch ? "needs THEN" : "needs DO"};
+    // What follows counts only when the condition holds.
+    done_ = !block_.condition;
+    return {};
+  }
+
+  /// Only comments may follow.
+  Fault end_of_block() {
+    done_ = true;
+    if (!skip_remarks(scanner_)) return {AlarmNumber::open_comment, scanner_.offset()};
+    return scanner_.at_end() ? Fault{} : Fault{AlarmNumber::text_behind_statement, scanner_.offset()};
+  }
+
+  Fault e_item(std::uint16_t at) {
+    const char second = letter(scanner_.peek(1));
+    if (second == '\0') return assign_parameter(at);
+    for (const PairWord& pair : pair_words) {
+      if (pair.second != second) continue;
+      scanner_.advance(2);
+      double value = 0;
+      if (const Fault fault = number(at, value)) return fault;
+      return {AlarmNumber::num_function_missing, at, pair.function};
+    }
+    return {AlarmNumber::unknown_instruction, at};
+  }
+
+  Fault assigned(double& value) {
+    any_ = assigned_ = true;
+    if (!scanner_.take('=')) return {AlarmNumber::operand_missing, scanner_.offset(), "needs ="};
+    return expressions_.expression(value);
+  }
+
+  Fault assign_variable(std::uint16_t at) {
+    scanner_.advance();
+    std::uint32_t number = 0;
+    double value = 0;
+    if (const Fault fault = expressions_.variable(at, number)) return fault;
+    if (const Fault fault = assigned(value)) return fault;
+    const AlarmNumber alarm = variables_.write(number, Value::of(value));
+    return alarm == AlarmNumber::none ? Fault{} : Fault{alarm, at};
+  }
+
+  Fault assign_parameter(std::uint16_t at) {
+    scanner_.advance();
+    ExternalPlace place;
+    double value = 0;
+    if (const Fault fault = expressions_.parameter(at, place)) return fault;
+    if (!place.is_free()) {
+      return {place.row->writable ? AlarmNumber::num_parameter_unavailable : AlarmNumber::variable_read_only,
+              at, place.name()};
+    }
+    if (const Fault fault = assigned(value)) return fault;
+    value = nearly_whole(value);
+    if (value != std::floor(value) || std::abs(value) > largest_parameter)
+      return {AlarmNumber::variable_value, at, "a whole number"};
+    const AlarmNumber alarm = variables_.write(first_free_variable + place.index, Value::of(value));
+    return alarm == AlarmNumber::none ? Fault{} : Fault{alarm, at};
+  }
+
+  /// The number behind a letter: literal, or the value of a variable or parameter.
+  Fault number(std::uint16_t at, double& value) {
+    scanner_.skip_blanks();
+    const char sign = scanner_.peek(0);
+    const char first = letter(scanner_.peek(sign == '-' || sign == '+' ? 1 : 0));
+    if (first == 'L' || first == 'E') {
+      if (const Fault fault = expressions_.value(value)) return fault;
+      value = nearly_whole(value);
+      return std::abs(value) > largest_number ? Fault{AlarmNumber::number_range, at} : Fault{};
+    }
+    const Decimal decimal = scanner_.number();
+    if (decimal.status == DecimalStatus::missing) return {AlarmNumber::number_missing, at};
+    if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
+    value = decimal.value;
+    return {};
+  }
+
+  Fault word(char name, std::uint16_t at) {
+    scanner_.advance();
+    if (name == 'G') return g_word(at);
+    if (name == 'N') return sequence_number(at);
+    if (name != 'M' && (num_letters & Block::bit(name)) == 0) return {AlarmNumber::num_word, at};
+    double value = 0;
+    if (const Fault fault = number(at, value)) return fault;
+    any_ = true;
+    if (name == 'M') {
+      if (value == 30 || value == 98 || value == 99) return {AlarmNumber::num_m_unknown, at};
+      return add_m(value, at);
+    }
+    if (block_.has(name)) return {AlarmNumber::letter_twice, at};
+    store(name, value, at);
+    return {};
+  }
+
+  Fault sequence_number(std::uint16_t at) {
+    if (any_ || block_.has('N')) return {AlarmNumber::num_word, at};
+    std::uint32_t number = 0;
+    if (const Fault fault = read_sequence_number(scanner_, at, number)) return fault;
+    store('N', number, at);
+    return {};
+  }
+
+  Fault add_m(double value, std::uint16_t at) {
+    if (block_.m_count == max_m_codes) return {AlarmNumber::too_many_codes, at};
+    block_.m[block_.m_count++] = {value, at};
+    return {};
+  }
+
+  void store(char name, double value, std::uint16_t at) {
+    const auto index = static_cast<std::size_t>(name - 'A');
+    block_.letters |= Block::bit(name);
+    block_.values[index] = value;
+    block_.offsets[index] = at;
+  }
+
+  Fault g_word(std::uint16_t at) {
+    scanner_.skip_blanks();
+    const Decimal decimal = scanner_.number();
+    if (decimal.status == DecimalStatus::missing) return {AlarmNumber::number_missing, at};
+    if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
+    const bool plus = scanner_.peek(0) == '+';
+    if (plus) scanner_.advance();
+    const NumCode* const code = num_code(decimal.value, plus);
+    if (code == nullptr) return {AlarmNumber::num_g_unknown, at};
+    switch (code->use) {
+      case NumUse::wait_mark:
+        return {AlarmNumber::num_wait_mark, at};
+      case NumUse::missing:
+        return {AlarmNumber::num_function_missing, at, code->meaning};
+      case NumUse::jump:
+        return jump(at);
+      case NumUse::call:
+        any_ = true;
+        if (calls_) return {AlarmNumber::group_twice, at};
+        calls_ = true;
+        call_at_ = at;
+        return {};
+      case NumUse::dwell:
+        dwells_ = true;
+        dwell_at_ = at;
+        break;
+      case NumUse::code:
+        break;
+    }
+    any_ = true;
+    if (block_.g_count == max_g_codes) return {AlarmNumber::too_many_codes, at};
+    block_.g[block_.g_count++] = {static_cast<double>(code->code), at};
+    return {};
+  }
+
+  Fault jump(std::uint16_t at) {
+    if (any_) return {AlarmNumber::statement_not_first, at};
+    any_ = true;
+    bool holds = true;
+    if (scanner_.more() && letter(scanner_.peek()) != 'N') {
+      if (const Fault fault = expressions_.condition(holds)) return fault;
+    }
+    if (!scanner_.more() || letter(scanner_.peek()) != 'N')
+      return {AlarmNumber::missing_word, at, needs('N')};
+    const std::uint16_t target = scanner_.offset();
+    scanner_.advance();
+    std::uint32_t label = 0;
+    if (const Fault fault = read_sequence_number(scanner_, target, label)) return fault;
+    if (const Fault fault = end_of_block()) return fault;
+    if (!holds) return {};
+    block_.statement = Statement::go_to;
+    block_.label = label;
+    block_.at = at;
+    return {};
+  }
+
+  Fault complete() {
+    if (const Fault fault = calls_ ? complete_call() : check_no_call()) return fault;
+    if (dwells_) {
+      if (const Fault fault = complete_dwell()) return fault;
+    }
+    if (assigned_ && block_.statement == Statement::none && !block_.has_more())
+      block_.statement = Statement::assignment;
+    return {};
+  }
+
+  Fault check_no_call() const {
+    return block_.has('H') ? Fault{AlarmNumber::num_word, block_.offset('H')} : Fault{};
+  }
+
+  /// G77 H is M98 with its program: it comes behind the words of its block.
+  Fault complete_call() {
+    if (!block_.has('H')) return {AlarmNumber::missing_word, call_at_, needs('H')};
+    const std::uint16_t at = block_.offset('H');
+    // On a NUM control S is how often; here it would be a speed.
+    if (block_.has('S')) return {AlarmNumber::num_word, block_.offset('S')};
+    if (const Fault fault = program_of(block_.value('H'), at, block_.called)) return fault;
+    block_.letters &= ~Block::bit('H');
+    block_.offsets['P' - 'A'] = at;  // where an alarm of the call points
+    return add_m(98, call_at_);
+  }
+
+  /// The time of G4 is a word X of the codes here, in seconds.
+  Fault complete_dwell() {
+    if (!block_.has('F')) return {AlarmNumber::missing_word, dwell_at_, needs('F')};
+    for (const char axis : {'X', 'U'}) {
+      if (block_.has(axis)) return {AlarmNumber::num_word, block_.offset(axis)};
+    }
+    block_.letters &= ~Block::bit('F');
+    store('X', block_.value('F'), block_.offset('F'));
+    return {};
+  }
+
+  std::string_view line_;
+  SkipLevels skip_;
+  Scanner scanner_;
+  Variables& variables_;
+  NumExpressionReader expressions_;
+  Block& block_;
+  bool done_ = false;  // nothing more of the line is read
+  bool any_ = false;   // more than N was read: no structure or jump may come
+  bool assigned_ = false;
+  bool calls_ = false, dwells_ = false;
+  std::uint16_t call_at_ = 0, dwell_at_ = 0;
+};
+
+}  // namespace
+
+Fault NumDialect::read_block(std::string_view line, SkipLevels skip, Variables& variables,
+                             Block& block) const {
+  return NumReader(line, skip, variables, block).read();
+}
+
+Fault NumDialect::read_condition(std::string_view, std::uint16_t, const Variables&, bool& condition) const {
+  condition = false;
+  return {};
+}
+
+Outline NumDialect::outline(std::string_view line, SkipLevels skip) const {
+  Outline outline;
+  Scanner scanner(line);
+  if (scanner.more() && scanner.peek() == '/') {
+    if ((skip & 1u) != 0) return outline;
+    scanner.advance();
+  }
+  if (scanner.more() && scanner.peek() == '%') {
+    if (read_num_head(scanner, outline.program_number)) return outline;
+    outline.head = Head::program;
+  }
+  if (!skip_remarks(scanner) || scanner.at_end()) return outline;
+  if (letter(scanner.peek()) == 'N') {
+    const std::uint16_t at = scanner.offset();
+    scanner.advance();
+    std::uint32_t number = 0;
+    if (read_sequence_number(scanner, at, number)) return outline;
+    outline.sequence_number = number;
+    if (!skip_remarks(scanner) || scanner.at_end()) return outline;
+  }
+  if (outline.head == Head::none) outline.statement = take_structure(scanner);
+  return outline;
+}
+
+}  // namespace trunnion::language
