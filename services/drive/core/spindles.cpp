@@ -126,7 +126,6 @@ SpindleState Spindles::state(std::size_t i, const SpindleStatus& status, const S
     state.reference = (controlled || running_down) && !row.coupled ? row.speed : 0;
   }
   state.homed = status.homed;
-  state.angle = status.angle;
   state.gear = gears_[i].in_force();
   state.torque = status.torque;
   state.angle = status.angle;
