@@ -192,7 +192,10 @@ void DriveCore::stop_at_newest_row(std::uint64_t starved) {
                 static_cast<unsigned long long>(starved), static_cast<unsigned long long>(next_));
   raise(alarm::setpoint_missing, 0, text);
   if (mode_ == Mode::RETURNING) off_path_ = true;
-  if (homing) target_ = command_;
+  if (homing) {
+    note_search(HomingCycle::State::failed);
+    target_ = command_;
+  }
   for (auto& axis : row_.axes) axis.velocity = 0;
   stopped();
 }

@@ -30,6 +30,7 @@ void SpindleOrientation::configure(const OrientationSettings& settings, double p
   reference_ = settings.angle / degrees;
   if (reference() != before) active_ = false;  // a held spindle turns to the other angle
   window_ = settings.window / degrees;
+  own_speed_ = settings.speed;
   approach_speed_ = settings.speed / seconds_of_minute * period;
   speed_step_ = own_step_ = acceleration_share * settings.acceleration / degrees * period * period;
 }
@@ -37,8 +38,6 @@ void SpindleOrientation::configure(const OrientationSettings& settings, double p
 void SpindleOrientation::limit_acceleration(double acceleration) {
   speed_step_ = std::min(own_step_, acceleration_share * acceleration / degrees * period_ * period_);
 }
-
-double SpindleOrientation::approach_speed() const { return approach_speed_ / period_ * seconds_of_minute; }
 
 void SpindleOrientation::demand(bool on, double angle) {
   demanded_ = on;

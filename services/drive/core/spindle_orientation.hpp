@@ -32,7 +32,7 @@ class SpindleOrientation {
   /// configure().
   void limit_acceleration(double acceleration);
   /// 1/min.
-  double approach_speed() const;
+  double approach_speed() const { return own_speed_; }
   /// `angle` deg; below 0: that of the settings.
   void demand(bool on, double angle = -1);
   bool demanded() const { return demanded_; }
@@ -51,8 +51,8 @@ class SpindleOrientation {
   /// The alarms are reset: a spindle that is still out of its window is lost again.
   void acknowledge() { outside_ = 0; }
 
-  /// No fields, configure() sets them: period_, reference_, window_, approach_speed_, speed_step_,
-  /// own_step_.
+  /// No fields, configure() sets them: period_, reference_, window_, approach_speed_, speed_step_, own_step_,
+  /// own_speed_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("demanded", self.demanded_), visit("active", self.active_), visit("angle", self.angle_);
@@ -73,6 +73,7 @@ class SpindleOrientation {
   double period_ = 0.001, reference_ = 0, window_ = 0;  // s, rev, rev
   double approach_speed_ = 0, speed_step_ = 0;          // rev of a period
   double own_step_ = 0;                                 // speed_step_ of a spindle that none follows
+  double own_speed_ = 0;                                // 1/min, of the approach
   bool demanded_ = false, active_ = false;
   double angle_ = 0, speed_ = 0, target_ = 0;  // rev, rev of a period, rev
   double ordered_ = -1;                        // rev: in place of reference_; below 0 = none

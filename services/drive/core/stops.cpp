@@ -39,6 +39,7 @@ void DriveCore::lose_control(std::string text) {
 }
 
 void DriveCore::switch_off() {
+  if (mode_ == Mode::HOMING) note_search(HomingCycle::State::failed);
   enable_.lose();
   off_path_ = any_active();
   rate_.hold();

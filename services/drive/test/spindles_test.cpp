@@ -132,6 +132,7 @@ TEST(Spindles, TellWhatASpindleFollows) {
   EXPECT_EQ(s.step().condition, SpindleCondition::SPINDLE_ORIENTED);
   EXPECT_EQ(s.row[0].angle, 3.25);
   EXPECT_EQ(s.step().reference, 0);
+  EXPECT_EQ(s.step().angle, 3.25);
 }
 
 TEST(Spindles, AGearLimitsTheCommandedSpeedAndIsHandedToTheHardware) {
@@ -177,7 +178,7 @@ TEST(Spindles, DataOfTheRampThatCannotBeUsedAreAnAlarmAndTheSpindleStaysAtRest) 
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].alarm, &alarm::spindle_parameters);
   EXPECT_EQ(events[0].part, 5u);
-  EXPECT_THAT(events[0].text, testing::HasSubstr("1500 1/min (parameter 105972)"));
+  EXPECT_THAT(events[0].text, ::testing::HasSubstr("1500 1/min (parameter 105972)"));
   s.spindles.demand_speeds({500});
   EXPECT_EQ(s.step().reference, 0);
   EXPECT_EQ(s.row[0].speed, 0);
@@ -201,7 +202,7 @@ TEST(Spindles, AHeldSpindleThatLeavesItsWindowIsAnAlarm) {
   ASSERT_EQ(all.size(), 1u);
   EXPECT_EQ(all[0].alarm, &alarm::orientation_lost);
   EXPECT_EQ(all[0].part, 5u);
-  EXPECT_THAT(all[0].text, testing::HasSubstr("is 3.600 deg from its orientation angle 90.000 deg"));
+  EXPECT_THAT(all[0].text, ::testing::HasSubstr("is 3.600 deg from its orientation angle 90.000 deg"));
   s.spindles.acknowledge();
   for (std::uint32_t i = 0; i < orientation_lost_periods; ++i) s.step();
   EXPECT_EQ(s.events().size(), 1u) << "it is out of its window still";
