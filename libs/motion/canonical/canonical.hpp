@@ -163,11 +163,17 @@ struct Command {
                              ///< the angle of M19, deg in [0, 360)
   double lead_change = 0;    ///< of kind thread: mm per revolution in each revolution
   double start_angle = 0;    ///< of kind thread: degrees behind the index mark, in the spindle's direction
+  double spindle_speed = 0;  ///< of kind tap: 1/min; 0 = modal.spindle_speed
   Table table = Table::none;  ///< of kind table
   bool chord = false;      ///< a piece of a smooth curve (G6.2) or of a move with tool vectors (G43.5) that
                            ///< continues behind it: its end is no corner
   bool has_value = false;  ///< of kind auxiliary: the block gives `value`
   ModalState modal{};
 };
+
+/// 1/min at which the spindle makes a stroke of kind tap.
+inline double stroke_speed(const Command& stroke) {
+  return stroke.spindle_speed > 0 ? stroke.spindle_speed : stroke.modal.spindle_speed;
+}
 
 }  // namespace trunnion::canonical

@@ -60,7 +60,10 @@ struct CallCentre {
 
 /// Words behind a comma, kept as two further letters: ,C a chamfer and ,R a rounding at the end of the move.
 inline constexpr char chamfer_word = 'A' + 26, rounding_word = 'A' + 27;
-inline constexpr std::size_t word_count = 28;
+/// Words of rigid tapping in the NUM dialect: EK, EH, ER, and its K, which is the lead.
+inline constexpr char retract_ratio_word = 'A' + 28, work_plane_word = 'A' + 29, approach_word = 'A' + 30,
+                      lead_word = 'A' + 31;
+inline constexpr std::size_t word_count = 32;
 
 /// A letter except G and M occurs at most once in a block, so words are looked up by letter.
 struct Block {
@@ -78,7 +81,7 @@ struct Block {
   std::uint32_t program_number = 0;
   std::uint32_t called = 0;  ///< the program that the M98 among `m` calls, when P does not name it; 0: P does
   std::uint32_t pointed = 0;  ///< those of `letters` whose number is written with a decimal point
-  std::uint32_t letters = 0;  ///< bit 0 = A .. bit 25 = Z, then ,C and ,R; G and M are not in it
+  std::uint32_t letters = 0;  ///< bit 0 = A .. bit 25 = Z, then those above; G and M are not in it
   std::array<double, word_count> values{};
   std::array<std::uint16_t, word_count> offsets{};
   std::array<CodeWord, max_g_codes> g{};

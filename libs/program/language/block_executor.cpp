@@ -169,7 +169,8 @@ Fault BlockExecutor::act() {
     if (taken || one_block) return {};
   }
   const ModalState& modal = context_.state.modal;
-  if (modal.cycle != 80) return handlers_.cycles.run();
+  if (modal.cycle != 80)
+    return handlers_.num_tapping.active() ? handlers_.num_tapping.run() : handlers_.cycles.run();
   if (modal.motion == 62) return handlers_.curve.begin();
   return handlers_.motion.move();
 }

@@ -6,6 +6,7 @@
 #include "language/drilling_cycles.hpp"
 #include "language/frame_codes.hpp"
 #include "language/modal_codes.hpp"
+#include "language/num_tapping.hpp"
 #include "language/path_motion.hpp"
 #include "language/positioning.hpp"
 #include "language/table_codes.hpp"
@@ -26,7 +27,8 @@ struct BlockHandlers {
         vectors(context),
         motion(context, vectors),
         curve(context),
-        cycles(context) {}
+        cycles(context),
+        num_tapping(context) {}
 
   ModalCodes modal;
   ToolCodes tool;
@@ -38,6 +40,7 @@ struct BlockHandlers {
   PathMotion motion;
   CurveMotion curve;
   DrillingCycles cycles;
+  NumTapping num_tapping;
 };
 
 }  // namespace trunnion::language

@@ -122,6 +122,7 @@ Fault CommandOutput::move_straight(const StraightMove& move, const AxisValues& p
   command.value = move.value;
   command.lead_change = move.lead_change;
   command.start_angle = move.start_angle;
+  command.spindle_speed = move.spindle_speed;
   if (move.kind != CommandKind::rapid && !linear && state_.modal.feed_mode != FeedMode::inverse_time) {
     command.modal.feed /= state_.modal.metric ? 1.0 : 25.4;
   }

@@ -11,6 +11,7 @@ namespace trunnion::language {
 enum class NumUse : std::uint8_t {
   code,       ///< the code `code` of g_codes
   dwell,      ///< the same, whose time is F
+  tap,        ///< the same, whose K is the lead, with EK, EH and ER
   call,       ///< G77 H: a program
   jump,       ///< G79 N
   wait_mark,  ///< G78: alarm 1152
@@ -21,7 +22,7 @@ struct NumCode {
   std::uint16_t number;
   bool plus;  ///< with + behind the number
   NumUse use;
-  std::uint16_t code;   ///< of use code and dwell
+  std::uint16_t code;   ///< of use code, dwell and tap
   std::uint16_t modal;  ///< #4001 .., which has the active code of its group; 0 when it has none
   const char* meaning;  ///< at most 48 characters
 };
@@ -47,7 +48,7 @@ inline constexpr std::array num_codes = {
     NumCode{78, false, NumUse::wait_mark, 0, 0, "wait mark between channels"},
     NumCode{79, false, NumUse::jump, 0, 0, "jump to block N, if a condition before N holds"},
     NumCode{80, false, NumUse::code, 80, 4009, "cycle off"},
-    NumCode{84, false, NumUse::missing, 0, 4009, "rigid tapping"},
+    NumCode{84, false, NumUse::tap, 84, 4009, "rigid tapping"},
     NumCode{90, false, NumUse::code, 90, 4003, "absolute words"},
     NumCode{91, false, NumUse::code, 91, 4003, "incremental words"},
     NumCode{94, false, NumUse::code, 94, 4005, "feed per minute"},

@@ -17,18 +17,19 @@ namespace {
 
 constexpr double highest_sequence_number = 99999999;
 constexpr double largest_parameter = 2147483647;
-constexpr std::uint32_t num_letters = letter_bits("ABCFHRSTUVWXYZ");
+constexpr std::uint32_t num_letters = letter_bits("ABCFHKRSTUVWXYZ");
 
-/// E and a letter: the words of functions that are not there.
+/// E and a letter: words of G84, and of functions that are not there.
 struct PairWord {
   char second;
-  const char* function;
+  char word;             ///< of the block; zero when the function is not there
+  const char* function;  ///< that is not there
 };
 constexpr std::array pair_words = {
-    PairWord{'A', "thread cutting"},         PairWord{'B', "thread cutting"},
-    PairWord{'C', "angle of a spindle"},     PairWord{'H', "rigid tapping"},
-    PairWord{'K', "rigid tapping"},          PairWord{'R', "rigid tapping"},
-    PairWord{'X', "resumed thread cutting"}, PairWord{'Z', "resumed thread cutting"},
+    PairWord{'A', '\0', "thread cutting"},         PairWord{'B', '\0', "thread cutting"},
+    PairWord{'C', '\0', "angle of a spindle"},     PairWord{'H', work_plane_word, ""},
+    PairWord{'K', retract_ratio_word, ""},         PairWord{'R', approach_word, ""},
+    PairWord{'X', '\0', "resumed thread cutting"}, PairWord{'Z', '\0', "resumed thread cutting"},
 };
 
 Fault program_of(double value, std::uint16_t at, std::uint32_t& number) {
@@ -163,7 +164,11 @@ class NumReader {
       scanner_.advance(2);
       double value = 0;
       if (const Fault fault = number(at, value)) return fault;
-      return {AlarmNumber::num_function_missing, at, pair.function};
+      if (pair.word == '\0') return {AlarmNumber::num_function_missing, at, pair.function};
+      any_ = true;
+      if (block_.has(pair.word)) return {AlarmNumber::letter_twice, at};
+      store(pair.word, value, at);
+      return {};
     }
     return {AlarmNumber::unknown_instruction, at};
   }
@@ -282,6 +287,10 @@ class NumReader {
         dwells_ = true;
         dwell_at_ = at;
         break;
+      case NumUse::tap:
+        taps_ = true;
+        tap_at_ = at;
+        break;
       case NumUse::code:
         break;
     }
@@ -314,6 +323,7 @@ class NumReader {
 
   Fault complete() {
     if (const Fault fault = calls_ ? complete_call() : check_no_call()) return fault;
+    if (const Fault fault = taps_ ? complete_tap() : check_no_tap()) return fault;
     if (dwells_) {
       if (const Fault fault = complete_dwell()) return fault;
     }
@@ -338,6 +348,20 @@ class NumReader {
     return add_m(98, call_at_);
   }
 
+  Fault check_no_tap() const {
+    for (const char word : {'K', retract_ratio_word, work_plane_word, approach_word})
+      if (block_.has(word)) return {AlarmNumber::num_word, block_.offset(word)};
+    return {};
+  }
+
+  /// K of the codes here means repetitions.
+  Fault complete_tap() {
+    if (!block_.has('K')) return {AlarmNumber::missing_word, tap_at_, needs('K')};
+    block_.letters &= ~Block::bit('K');
+    store(lead_word, block_.value('K'), block_.offset('K'));
+    return {};
+  }
+
   /// The time of G4 is a word X of the codes here, in seconds.
   Fault complete_dwell() {
     if (!block_.has('F')) return {AlarmNumber::missing_word, dwell_at_, needs('F')};
@@ -358,8 +382,8 @@ class NumReader {
   bool done_ = false;  // nothing more of the line is read
   bool any_ = false;   // more than N was read: no structure or jump may come
   bool assigned_ = false;
-  bool calls_ = false, dwells_ = false;
-  std::uint16_t call_at_ = 0, dwell_at_ = 0;
+  bool calls_ = false, dwells_ = false, taps_ = false;
+  std::uint16_t call_at_ = 0, dwell_at_ = 0, tap_at_ = 0;
 };
 
 }  // namespace

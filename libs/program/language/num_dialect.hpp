@@ -11,9 +11,9 @@ namespace trunnion::language {
 ///   bytes; `$` shows the rest of the line as a message, nothing behind it shows none;
 /// - `%n` and `%n.i` (n to 99999, i to 9) begin a program at the start of a line; `/` there makes a block
 ///   skippable, at level 1; N is the first word;
-/// - G as in num_codes, M but for 30, 98 and 99, words of the axes, F S T R, and H of G77; the number of a
-/// word
-///   but G and N may be a value of NumExpressionReader that begins with L or E, with a sign;
+/// - G as in num_codes, M but for 30, 98 and 99, words of the axes, F S T R, H of G77, and K EK EH ER of G84;
+///   the number of a word but G and N may be a value of NumExpressionReader that begins with L or E, with a
+///   sign;
 /// - `L0=2 E80001=L0+1 G1 X10`: assignments and words in one block, carried out from left to right, the words
 ///   with what was assigned before them;
 /// - IF condition THEN, ELSE, ENDI; WHILE condition DO, ENDW: first in their line; behind THEN and DO may be
@@ -21,7 +21,7 @@ namespace trunnion::language {
 /// - G77 Hn.i calls a program, behind the words of its block; the end of its text, the next head or M2 ends
 /// it.
 ///   G79 Nn and G79 condition Nn jump, alone in their block.
-/// What other functions take, EK EH ER EC EZ EX EA EB among it, is an alarm with its name.
+/// What other functions take, EC EZ EX EA EB among it, is an alarm with its name.
 class NumDialect final : public Dialect {
  public:
   DialectRules rules() const override { return {true, false}; }

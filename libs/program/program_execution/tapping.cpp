@@ -41,7 +41,7 @@ motion::Limits Tapping::limits(motion::Limits limits, double acceleration) const
 language::Command Tapping::line(language::Command stroke) {
   stroke.kind = language::CommandKind::line;
   stroke.modal.feed_mode = language::FeedMode::per_minute;
-  stroke.modal.feed = std::abs(stroke.value) * stroke.modal.spindle_speed;
+  stroke.modal.feed = std::abs(stroke.value) * stroke_speed(stroke);
   stroke.modal.path_control = language::PathControl::exact_stop;
   return stroke;
 }

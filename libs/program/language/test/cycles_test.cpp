@@ -42,6 +42,16 @@ TEST(Cycles, JNamesALetterThatIsASpindle) {
   }
 }
 
+// 5 mm times 2 and 1 mm times 2; the lead of the tap is what it is.
+TEST(Cycles, AScaleActsOnTheDepthOfATapAndNotOnItsLead) {
+  TestMachine machine = machine_for_cycles();
+  std::vector<std::string> taps;
+  for (const std::string& line :
+       stream(run(machine, "G51 X0 Y0 Z0 P2\nS100 G95 F1.25 G99 G84 Z-5 R1\nG80\nM30\n")))
+    if (line.rfind("tap", 0) == 0) taps.push_back(line);
+  EXPECT_EQ(taps, (std::vector<std::string>{"tap Z-10 lead1.25", "tap Z2 lead1.25"}));
+}
+
 // Where the holes of a program are: the ends of its feed moves.
 std::vector<std::array<double, 2>> holes(TestMachine& machine, const std::string& text) {
   const Interpretation result = run(machine, text);

@@ -112,6 +112,47 @@ TEST(NumDialect, ACalledProgramEndsWithItsText) {
   EXPECT_THAT(stream(run(machine, "G77 H5\nM2")), ElementsAre("rapid X1", "alarm 1405 1:1"));
 }
 
+// The example of the document, from EH 2: 202 mm at 1.25 mm per revolution, out at 2.5 times 500 1/min.
+TEST(NumDialect, ATapHasItsLeadAndTheSpeedOfItsWayOut) {
+  EXPECT_THAT(num_stream("G71 S500 M3\nG0 Z10\nG84 Z-200 K1.25 EK2.5 EH2 M5\nM2"),
+              ElementsAre("S500", "M3", "rapid Z10", "rapid Z2", "M5", "tap Z-200 lead1.25",
+                          "tap Z2 lead1.25 S1250", "M5", "end 2"));
+  // 60 1/min times 2.
+  EXPECT_THAT(num_stream("S60 M3 Z4\nG84 Z1 K1 EK2\nM2"),
+              ElementsAre("S60", "M3", "rapid Z4", "M5", "tap Z1 lead1", "tap Z4 lead1 S120", "M3", "end 2"));
+  TestMachine machine = num_machine();
+  machine.highest_speed = 100;
+  EXPECT_EQ(std::string(run(machine, "S60 M3 G84 Z-1 K1 EK2").alarm.text.data()),
+            std::string(alarm_text(AlarmNumber::spindle_speed_above)) +
+                ": EK, S times EK 120, at most 100 1/min (10a948)");
+}
+
+TEST(NumDialect, BehindATapTheSpindleTurnsAsBeforeOrStandsWithM5) {
+  TestMachine machine = num_machine();
+  EXPECT_EQ(run(machine, "S60 M4 G84 Z-1 K1\nM2").modal.spindle_direction, SpindleDirection::ccw);
+  EXPECT_EQ(run(machine, "S60 M4 G84 Z-1 K1 M5\nM2").modal.spindle_direction, SpindleDirection::stopped);
+  // M4 cuts a left-hand thread. F is the feed behind it, G80 ends the cycle.
+  EXPECT_THAT(num_stream("S60 M4 Z1\nG84 Z-1 K1 F200\nL0=[.RG80]\nG80\nG1 Z3 XL0\nM2"),
+              ElementsAre("S60", "M4", "rapid Z1", "M5", "tap Z-1 lead-1", "tap Z1 lead-1", "M4",
+                          "line X84 Z3 F200", "end 2"));
+}
+
+TEST(NumDialect, LeadAndLevelsOfATapAreInTheUnitOfTheProgram) {
+  // 0.05 inch = 1.27 mm, 0.1 = 2.54 mm, 0.5 = 12.7 mm; EK is a ratio.
+  EXPECT_THAT(num_stream("G70 S500 M3\nG84 Z-1 K.05 EK2 EH.1 ER.5\nM2"),
+              ElementsAre("S500", "M3", "rapid Z12.7", "rapid Z2.54", "M5", "tap Z-25.4 lead1.27",
+                          "tap Z2.54 lead1.27 S1000", "M3", "rapid Z12.7", "end 2"));
+  EXPECT_THAT(
+      num_stream("L1=1.25 S500 M3\nG84 Z-1 KL1 EKL1 EH1\nM2"),
+      ElementsAre("S500", "M3", "rapid Z1", "M5", "tap Z-1 lead1.25", "tap Z1 lead1.25 S625", "M3", "end 2"));
+  // X is a diameter, and so are EH and ER of a tap along it; K is not.
+  TestMachine machine = num_machine();
+  machine.diameter = true;
+  EXPECT_THAT(stream(run(machine, "S100 M3 Z-7\nG84 X20 K2 EH40 ER44\nM2")),
+              ElementsAre("S100", "M3", "rapid Z-7", "rapid X22 Z-7", "rapid X20 Z-7", "M5",
+                          "tap X10 Z-7 lead2", "tap X20 Z-7 lead2", "M3", "rapid X22 Z-7", "end 2"));
+}
+
 TEST(NumDialect, ProgramsAreStoredUnderTheirNumber) {
   EXPECT_EQ(ProgramName(900009990).view(), "O9990.9");
   EXPECT_EQ(ProgramName(100000020).view(), "O0020.1");
@@ -175,7 +216,6 @@ const std::vector<NumFault>& num_faults() {
       {num_m_unknown, "M30", 1, 1, ": M30"},
       {num_m_unknown, "L0=99 ML0", 1, 7, ": ML"},
       {num_wait_mark, "G78 Q1 P1.2", 1, 1, ": G78"},
-      {num_function_missing, "G84 Z-200 K1.25 EK2.5 M5", 1, 1, ": G84, rigid tapping"},
       {num_function_missing, "G38 K2 Z-13", 1, 1, ": G38, thread cutting"},
       {num_function_missing, "G38+ J-18 EC90 K2 Z-13", 1, 1, ": G38+, resumed thread cutting"},
       {num_function_missing, "G33 Z-13 K2", 1, 1, ": G33, thread cutting cycle"},
@@ -184,6 +224,24 @@ const std::vector<NumFault>& num_faults() {
       {num_function_missing, "M64 M40 M4 S100 EC0", 1, 17, ": EC, angle of a spindle"},
       {num_function_missing, "EZ-L0", 1, 1, ": EZ, resumed thread cutting"},
       {num_word, "G2 X1 I1", 1, 7, ": I1"},
+      {num_word, "G1 X1 F1 K2", 1, 10, ": K2"},
+      {num_word, "G1 X1 F1 EK2", 1, 10, ": EK"},
+      {num_word, "EH1", 1, 1, ": EH"},
+      {num_word, "ER1", 1, 1, ": ER"},
+      {letter_twice, "G84 Z-5 K1 EK2 EK3", 1, 16, ": EK"},
+      {missing_word, "M3 S60 G84 Z-5", 1, 8, ": G84, needs K"},
+      {num_tap_axis, "M3 S60\nG84 K1", 2, 1, ": G84"},
+      {num_tap_axis, "M3 S60\nG84 X1 Z-5 K1", 2, 1, ": G84"},
+      {num_tap_axis, "M3 S60\nG84 Y-5 K1", 2, 1, ": G84"},
+      {num_tap_incremental, "M3 S60 G91 G84 Z-5 K1", 1, 12, ": G84"},
+      {num_tap_lead, "M3 S60 G84 Z-5 K0", 1, 16, ": K0"},
+      {num_tap_lead, "M3 S60 G84 Z-5 K1 EK-2", 1, 19, ": EK"},
+      {num_tap_spindle, "S60 G84 Z-5 K1 M5", 1, 5, ": G84"},
+      {num_tap_spindle, "M3 G84 Z-5 K1", 1, 4, ": G84"},
+      {num_tap_level, "M3 S60 G84 Z0 K1", 1, 8, ": G84"},
+      // The rapid to ER would go 2 mm into the hole.
+      {num_tap_level, "M3 S60 G84 Z-5 K1 EH1 ER-1", 1, 19, ": EH"},
+      {num_tap_modal, "M3 S60 G84 Z-5 K1\nF100 X5", 2, 6, ": X5"},
       {num_word, "D1", 1, 1, ": D1"},
       {num_word, "O1234", 1, 1, ": O1234"},
       {num_word, "G1 N5", 1, 4, ": N5"},
@@ -266,7 +324,11 @@ TEST(NumDialect, ClashesAreDecidedByTheDialect) {
   EXPECT_EQ(alarm(iso, "G77 H5"), AlarmNumber::unknown_g);
   EXPECT_EQ(alarm(num, "G77 H5"), AlarmNumber::subprogram_missing);
   EXPECT_EQ(alarm(iso, "G95 S100 G84 Z-4 R1 F1 K2"), AlarmNumber::none);
-  EXPECT_EQ(alarm(num, "G95 S100 G84 Z-4 ER1 K2"), AlarmNumber::num_function_missing);
+  EXPECT_EQ(alarm(num, "G95 S100 G84 Z-4 R1 F1 K2"), AlarmNumber::num_tap_spindle);
+  EXPECT_EQ(alarm(num, "G95 S100 M3 G84 Z-4 R1 F1 K2"), AlarmNumber::unused_word);
+  // Two taps of lead 1, in and out; one tap of lead 2.
+  EXPECT_EQ(run(iso, "G95 S100 G99 G84 Z-4 R1 F1 K2\nM2").commands.size(), 7u);
+  EXPECT_EQ(run(num, "G95 S100 M3 G84 Z-4 F1 K2\nM2").commands.size(), 7u);
   EXPECT_TRUE(run(iso, "G70").modal.metric);
   EXPECT_FALSE(run(num, "G70").modal.metric);
   // M40 goes to the PLC in both.
