@@ -135,6 +135,7 @@ FlowState ProgramFlow::push_move() {
     return fail(language::AlarmNumber::feed_not_positive,
                 "feed must be above zero (per revolution: with the spindle turning)");
   executing_ = command_.modal;
+  if (command_.kind == CommandKind::tap) tap_speed_ = std::max(tap_speed_, stroke_speed(command_));
   have_command_ = false;
   if (on_move) on_move(move);
   return FlowState::full;

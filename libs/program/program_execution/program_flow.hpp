@@ -114,7 +114,9 @@ class ProgramFlow {
   /// The pending command cannot be carried out: FlowState::alarm.
   void refuse_pending(language::AlarmNumber number);
   /// Rigid tapping has started or ended: strokes and the dwells between them are moves meanwhile.
-  void set_tapping(bool tapping) { tapping_ = tapping; }
+  void set_tapping(bool tapping) { tapping_ = tapping, tap_speed_ = 0; }
+  /// The highest speed of the spindle in the strokes that motion has got since, 1/min.
+  double tap_speed() const { return tap_speed_; }
   /// Threads follow the spindle: FlowState::command comes before one; else they are lines that motion gets.
   void set_coupled_threads(bool coupled) { coupled_threads_ = coupled; }
   /// Called at rest, with a thread pending: fill() then collects it, and those that continue it, in legs() up
@@ -216,6 +218,7 @@ class ProgramFlow {
   Entry entry_;
   Search search_ = Search::none;
   bool tapping_ = false, in_hole_ = false, text_missing_ = false;
+  double tap_speed_ = 0;
   bool coupled_threads_ = false, threading_ = false, thread_complete_ = false;
   bool behind_thread_ = false;  // the line to start from may continue one
   std::vector<ThreadLeg> legs_;

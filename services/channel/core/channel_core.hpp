@@ -281,6 +281,7 @@ class ChannelCore {
   void finish_skip();
   void begin_tapping();
   void finish_tapping();
+  double tapping_override() const;
   void begin_thread();
   void cut_thread();
   StreamCycle step_thread(std::uint64_t cycle);

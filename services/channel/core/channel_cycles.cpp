@@ -39,6 +39,12 @@ void ChannelCore::begin_tapping() {
   flow().set_tapping(true);
 }
 
+// The override of the spindle is that of the path it is coupled to.
+double ChannelCore::tapping_override() const {
+  return Tapping::override_of(switches_.spindle_override, flow().tap_speed(),
+                              machine_.tapping_spindle(tapping_.axis()).highest_speed);
+}
+
 void ChannelCore::finish_tapping() {
   if (!tapping_.active()) return;
   tapping_.end();

@@ -121,8 +121,8 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
     setpoint.at_rest = manual_.wheel_at_rest();
   } else {
     check_exact_stop(cycle);
-    setpoint =
-        trajectory.step(tapping_.active() ? 1 : switches_.feed_override, switches_.rapid_override, braking());
+    setpoint = trajectory.step(tapping_.active() ? tapping_override() : switches_.feed_override,
+                               switches_.rapid_override, braking());
     progress_.point = {setpoint.sequence, setpoint.line, setpoint.fraction};
     if (states_.in<Running>() && states_.retracing() && trajectory.retraced_to_start()) hold();
   }

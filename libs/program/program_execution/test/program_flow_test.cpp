@@ -423,6 +423,7 @@ TEST_F(Flow, ATapIsAMoveOnlyWhileTappingAndCannotBeRestartedInTheThread) {
   EXPECT_EQ(moves.back().kind, CommandKind::line);
   EXPECT_EQ(moves.back().modal.path_control, language::PathControl::exact_stop);
   EXPECT_NEAR(moves.back().modal.feed, 500, 1e-9) << "lead 1.25 mm at 400 1/min";
+  EXPECT_EQ(flow.tap_speed(), 400);
   Entry entry;
   entry.restart = {tap.sequence, 0.5, {}};
   start(program, entry);

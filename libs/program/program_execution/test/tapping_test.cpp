@@ -38,5 +38,13 @@ TEST(Tapping, TheSpindleTurnsByTheLead) {
   EXPECT_DOUBLE_EQ(tapping.revolutions(bottom), -161.6);
 }
 
+TEST(Tapping, TheOverrideDoesNotTakeTheSpindleAboveItsHighestSpeed) {
+  EXPECT_EQ(Tapping::override_of(1.5, 500, 0), 1.5) << "no limit";
+  EXPECT_EQ(Tapping::override_of(1.5, 500, 750), 1.5);
+  EXPECT_EQ(Tapping::override_of(1.5, 500, 625), 1.25) << "625 by 500";
+  EXPECT_EQ(Tapping::override_of(0.5, 500, 625), 0.5);
+  EXPECT_EQ(Tapping::override_of(1, 500, 500), 1);
+}
+
 }  // namespace
 }  // namespace trunnion::program_execution
