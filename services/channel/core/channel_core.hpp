@@ -326,6 +326,8 @@ class ChannelCore {
   }
   bool uses_feedback() const;
   bool braking() const { return states_.feed_hold() && !tapping_.active() && !thread_.cutting(); }
+  /// The PLC has stopped spindle and axis of a tap.
+  bool tap_stopped() const { return tapping_.active() && control().tap_stop; }
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;
   AxisValues drive_position() const;

@@ -122,7 +122,7 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
   } else {
     check_exact_stop(cycle);
     setpoint = trajectory.step(tapping_.active() ? tapping_override() : switches_.feed_override,
-                               switches_.rapid_override, braking());
+                               switches_.rapid_override, braking() || tap_stopped());
     progress_.point = {setpoint.sequence, setpoint.line, setpoint.fraction};
     if (states_.in<Running>() && states_.retracing() && trajectory.retraced_to_start()) hold();
   }

@@ -190,6 +190,55 @@ TEST_F(Tap, AFeedHoldActsOnlyWhenTheTapIsOutAgain) {
   EXPECT_EQ(drive.rows.back()[2], 20);
 }
 
+TEST_F(Tap, AStopOfThePlcStopsSpindleAndAxisTogetherAndTheyContinueWhenItFalls) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  idl::plc::ChannelControl control;
+  control.tap_stop = true;
+  core->set_control(control);
+  // From 8.33 mm/s with 41.7 mm/s2: 0.2 s and 0.8 mm, and what was written ahead.
+  for (int i = 0; i < 200; ++i) round();
+  auto rows = coupled();
+  EXPECT_EQ(core->run_state(), RunState::RUNNING);
+  EXPECT_EQ(core->state().detail,
+            "the PLC has stopped the tap: it continues when the PLC lets it; reset leaves it where it is");
+  EXPECT_EQ(rows.back(), rows[rows.size() - 100]);
+  EXPECT_LT(rows.back().first, -5);
+  EXPECT_GT(rows.back().first, -8);
+  control.tap_stop = false;
+  core->set_control(control);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[2], 20);
+  rows = coupled();
+  double most = 0;
+  for (const auto& [z, turns] : rows) {
+    ASSERT_NEAR(2 - z, 1.25 * turns, 1e-9);
+    most = std::max(most, turns);
+  }
+  EXPECT_NEAR(most, 9.6, 1e-9);
+}
+
+TEST_F(Tap, AResetAbandonsATapThatThePlcHasStoppedAndOtherMovesAreNotStopped) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  idl::plc::ChannelControl control;
+  control.tap_stop = true;
+  core->set_control(control);
+  for (int i = 0; i < 200; ++i) round();
+  const auto stopped = drive.rows.back()[2];
+  ask(CommandKind::RESET);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[2], stopped);
+  start("G90 G0 Z20\nM30\n");
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[2], 20);
+}
+
 TEST_F(Tap, SingleBlockStopsBehindTheHoleNotAtItsBottom) {
   start("G90 G94 S400\nG98 G84 X0 Y0 Z-10 R-2 F500\nG80\nM30\n");
   ask(CommandKind::SINGLE_BLOCK, "", 1);

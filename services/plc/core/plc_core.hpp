@@ -122,7 +122,7 @@ class PlcCore {
   };
   struct ControlSymbols {
     Address start_inhibit, manual_inhibit, sets_overrides, feed_override, rapid_override, spindle_override;
-    Address refused, alarm;
+    Address refused, alarm, tap_stop;
   };
   struct SpindleSymbols {
     Address at_speed, actual, oriented, homed, synchronized, position;
