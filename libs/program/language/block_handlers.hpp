@@ -10,6 +10,7 @@
 #include "language/path_motion.hpp"
 #include "language/positioning.hpp"
 #include "language/table_codes.hpp"
+#include "language/tap_removal.hpp"
 #include "language/tilted_planes.hpp"
 #include "language/tool_codes.hpp"
 #include "language/tool_vector_motion.hpp"
@@ -28,7 +29,8 @@ struct BlockHandlers {
         motion(context, vectors),
         curve(context),
         cycles(context),
-        num_tapping(context) {}
+        num_tapping(context),
+        tap_removal(context) {}
 
   ModalCodes modal;
   ToolCodes tool;
@@ -41,6 +43,7 @@ struct BlockHandlers {
   CurveMotion curve;
   DrillingCycles cycles;
   NumTapping num_tapping;
+  TapRemoval tap_removal;
 };
 
 }  // namespace trunnion::language

@@ -12,6 +12,7 @@ enum class NumUse : std::uint8_t {
   code,       ///< the code `code` of g_codes
   dwell,      ///< the same, whose time is F
   tap,        ///< the same, whose K is the lead, with EK, EH and ER
+  removal,    ///< G39+: G84.9, with M3 or M4 in place of the hand of the thread, and M2
   call,       ///< G77 H: a program
   jump,       ///< G79 N
   wait_mark,  ///< G78: alarm 1152
@@ -40,7 +41,7 @@ inline constexpr std::array num_codes = {
     NumCode{33, false, NumUse::missing, 0, 0, "thread cutting cycle"},
     NumCode{38, false, NumUse::missing, 0, 0, "thread cutting"},
     NumCode{38, true, NumUse::missing, 0, 0, "resumed thread cutting"},
-    NumCode{39, true, NumUse::missing, 0, 0, "rigid tap removal"},
+    NumCode{39, true, NumUse::removal, 0, 0, "rigid tap removal"},
     NumCode{40, false, NumUse::code, 40, 4007, "tool radius compensation off"},
     NumCode{70, false, NumUse::code, 20, 4006, "inch"},
     NumCode{71, false, NumUse::code, 21, 4006, "millimetre"},

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double highest_sequence_number = 99999999;
 constexpr double largest_parameter = 2147483647;
+constexpr double tap_removal = 84.9;  // of g_codes
 constexpr std::uint32_t num_letters = letter_bits("ABCFHKRSTUVWXYZ");
 
 /// E and a letter: words of G84, and of functions that are not there.
@@ -291,12 +292,17 @@ class NumReader {
         taps_ = true;
         tap_at_ = at;
         break;
+      case NumUse::removal:
+        removes_ = true;
+        removal_at_ = at;
+        break;
       case NumUse::code:
         break;
     }
     any_ = true;
     if (block_.g_count == max_g_codes) return {AlarmNumber::too_many_codes, at};
-    block_.g[block_.g_count++] = {static_cast<double>(code->code), at};
+    const double value = code->use == NumUse::removal ? tap_removal : code->code;
+    block_.g[block_.g_count++] = {value, at};
     return {};
   }
 
@@ -323,7 +329,8 @@ class NumReader {
 
   Fault complete() {
     if (const Fault fault = calls_ ? complete_call() : check_no_call()) return fault;
-    if (const Fault fault = taps_ ? complete_tap() : check_no_tap()) return fault;
+    if (const Fault fault = removes_ ? complete_removal() : taps_ ? complete_tap() : check_no_tap())
+      return fault;
     if (dwells_) {
       if (const Fault fault = complete_dwell()) return fault;
     }
@@ -362,6 +369,43 @@ class NumReader {
     return {};
   }
 
+  static Fault wrong_removal(std::uint16_t at) { return {AlarmNumber::num_removal_words, at, "NUM error 2"}; }
+
+  /// The sense in which the spindle turns while the tap moves out is that of the hand of its thread: a
+  /// right-hand one comes out counter-clockwise. The PLC gets neither M3 and M4 nor the range. M2 ends it.
+  Fault complete_removal() {
+    constexpr std::uint32_t axes = letter_bits("UVWXYZ"), others = letter_bits("KNS");
+    const bool has_words =
+        block_.has('S') && block_.has('K') && block_.value('K') > 0 && (block_.letters & axes) != 0;
+    if (!has_words || (block_.letters & ~(axes | others)) != 0 || block_.g_count != 1 || calls_)
+      return wrong_removal(removal_at_);
+    int senses = 0, ranges = 0;
+    bool clockwise = false;
+    std::uint8_t kept = 0;
+    for (std::size_t i = 0; i < block_.m_count; ++i) {
+      const CodeWord m = block_.m[i];
+      const auto within = [&](double first, double last) {
+        return m.value == std::floor(m.value) && m.value >= first && m.value <= last;
+      };
+      if (within(3, 4)) {
+        ++senses;
+        clockwise = m.value == 3;
+      } else if (within(40, 45)) {
+        ++ranges;
+      } else if (within(64, 66)) {
+        block_.m[kept++] = m;
+      } else {
+        return wrong_removal(m.offset);
+      }
+    }
+    if (senses == 0) return wrong_removal(removal_at_);
+    if (senses > 1 || ranges > 1) return {AlarmNumber::num_removal_twice, removal_at_, "NUM error 1"};
+    block_.m_count = kept;
+    block_.letters &= ~Block::bit('K');
+    store(lead_word, clockwise ? -block_.value('K') : block_.value('K'), block_.offset('K'));
+    return add_m(2, removal_at_);
+  }
+
   /// The time of G4 is a word X of the codes here, in seconds.
   Fault complete_dwell() {
     if (!block_.has('F')) return {AlarmNumber::missing_word, dwell_at_, needs('F')};
@@ -382,8 +426,8 @@ class NumReader {
   bool done_ = false;  // nothing more of the line is read
   bool any_ = false;   // more than N was read: no structure or jump may come
   bool assigned_ = false;
-  bool calls_ = false, dwells_ = false, taps_ = false;
-  std::uint16_t call_at_ = 0, dwell_at_ = 0, tap_at_ = 0;
+  bool calls_ = false, dwells_ = false, taps_ = false, removes_ = false;
+  std::uint16_t call_at_ = 0, dwell_at_ = 0, tap_at_ = 0, removal_at_ = 0;
 };
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace trunnion::language {
 ///   bytes; `$` shows the rest of the line as a message, nothing behind it shows none;
 /// - `%n` and `%n.i` (n to 99999, i to 9) begin a program at the start of a line; `/` there makes a block
 ///   skippable, at level 1; N is the first word;
-/// - G as in num_codes, M but for 30, 98 and 99, words of the axes, F S T R, H of G77, and K EK EH ER of G84;
+/// - G as in num_codes, M but for 30, 98 and 99, words of the axes, F S T R, H of G77, K of G39+, and K EK EH
+/// ER of G84;
 ///   the number of a word but G and N may be a value of NumExpressionReader that begins with L or E, with a
 ///   sign;
 /// - `L0=2 E80001=L0+1 G1 X10`: assignments and words in one block, carried out from left to right, the words

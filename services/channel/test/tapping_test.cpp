@@ -239,6 +239,26 @@ TEST_F(Tap, AResetAbandonsATapThatThePlcHasStoppedAndOtherMovesAreNotStopped) {
   EXPECT_EQ(drive.rows.back()[2], 20);
 }
 
+// 12 mm at a lead of 1.25 mm are 9.6 turns, counter-clockwise out of a right-hand thread.
+TEST_F(Tap, ATapThatAResetHasLeftIsMovedOutInStepWithTheSpindle) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  ask(CommandKind::RESET);
+  run();
+  const double from = drive.rows.back()[2];
+  const auto before = coupled().size();
+  start("S200 G84.9 Z12 K1.25\nM30\n");
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_NEAR(drive.rows.back()[2], from + 12, 1e-9);
+  const auto rows = coupled();
+  ASSERT_GT(rows.size(), before + 1000);
+  for (std::size_t i = before; i < rows.size(); ++i)
+    ASSERT_NEAR(from - rows[i].first, 1.25 * rows[i].second, 1e-9);
+  EXPECT_NEAR(rows.back().second, -9.6, 1e-9);
+}
+
 TEST_F(Tap, SingleBlockStopsBehindTheHoleNotAtItsBottom) {
   start("G90 G94 S400\nG98 G84 X0 Y0 Z-10 R-2 F500\nG80\nM30\n");
   ask(CommandKind::SINGLE_BLOCK, "", 1);

@@ -153,6 +153,17 @@ TEST(NumDialect, LeadAndLevelsOfATapAreInTheUnitOfTheProgram) {
                           "tap X10 Z-7 lead2", "tap X20 Z-7 lead2", "M3", "rapid X22 Z-7", "end 2"));
 }
 
+// Ten millimetres at a lead of 1.2 mm; clockwise with M3 whatever the direction. The PLC gets no M3, M4 and
+// range.
+TEST(NumDialect, ATapIsRemovedInTheSenseThatIsWritten) {
+  EXPECT_THAT(num_stream("M64 G39+ M3 M41 S200 K1.2 Z10\nX1\nM2"),
+              ElementsAre("S200", "M64", "tap Z10 lead1.2", "end 2"));
+  EXPECT_THAT(num_stream("G39+M4S200K1.2Z10"), ElementsAre("S200", "tap Z10 lead-1.2", "end 2"));
+  // The distance is incremental, also with G90, and in the unit of the program.
+  EXPECT_THAT(num_stream("G70 G90 X1 Z1\nG39+ M4 S200 K.1 X.5\nM2"),
+              ElementsAre("rapid X25.4 Z25.4", "S200", "tap X38.1 Z25.4 lead-2.54", "end 2"));
+}
+
 TEST(NumDialect, ProgramsAreStoredUnderTheirNumber) {
   EXPECT_EQ(ProgramName(900009990).view(), "O9990.9");
   EXPECT_EQ(ProgramName(100000020).view(), "O0020.1");
@@ -219,7 +230,22 @@ const std::vector<NumFault>& num_faults() {
       {num_function_missing, "G38 K2 Z-13", 1, 1, ": G38, thread cutting"},
       {num_function_missing, "G38+ J-18 EC90 K2 Z-13", 1, 1, ": G38+, resumed thread cutting"},
       {num_function_missing, "G33 Z-13 K2", 1, 1, ": G33, thread cutting cycle"},
-      {num_function_missing, "M64 G39+ M3 M41 S200 K1.2 W10", 1, 5, ": G39+, rigid tap removal"},
+      {num_removal_words, "M64 G39+ M3 M41 S200 W10", 1, 5, ": G39+, NUM error 2"},
+      {num_removal_words, "G39+ M3 S200 K0 Z10", 1, 1, ": G39+, NUM error 2"},
+      {num_removal_words, "G39+ M3 K1 Z10", 1, 1, ": G39+, NUM error 2"},
+      {num_removal_words, "G39+ M3 S200 K1", 1, 1, ": G39+, NUM error 2"},
+      {num_removal_words, "G39+ S200 K1 Z10", 1, 1, ": G39+, NUM error 2"},
+      {num_removal_words, "G39+ M3 S200 K1 Z10 F100", 1, 1, ": G39+, NUM error 2"},
+      {num_removal_words, "G39+ M3 S200 K1 Z10 EK2", 1, 1, ": G39+, NUM error 2"},
+      {num_removal_words, "G90 G39+ M3 S200 K1 Z10", 1, 5, ": G39+, NUM error 2"},
+      {num_removal_words, "G39+ M3 M8 S200 K1 Z10", 1, 9, ": M8, NUM error 2"},
+      {num_removal_words, "G39+ M3 M46 S200 K1 Z10", 1, 9, ": M46, NUM error 2"},
+      {num_removal_twice, "G39+ M3 M4 S200 K1 Z10", 1, 1, ": G39+, NUM error 1"},
+      {num_removal_twice, "G39+ M3 M40 M41 S200 K1 Z10", 1, 1, ": G39+, NUM error 1"},
+      {tap_removal_axis, "M64 G39+ M3 M41 S200 K1.2 W10", 1, 5, ": G39+"},
+      {tap_removal_axis, "G39+ M3 S200 K1 X1 Z10", 1, 1, ": G39+"},
+      {tap_removal_spindle, "M3\nG39+ M4 S200 K1 Z10", 2, 1, ": G39+"},
+      {tap_removal_lead, "G39+ M4 S0 K1 Z10", 1, 1, ": G39+"},
       {num_function_missing, "F2000 G159 C", 1, 7, ": G159, homing by program"},
       {num_function_missing, "M64 M40 M4 S100 EC0", 1, 17, ": EC, angle of a spindle"},
       {num_function_missing, "EZ-L0", 1, 1, ": EZ, resumed thread cutting"},
@@ -367,7 +393,7 @@ TEST(NumDialect, ProgramsOfTheManualRunUpToWhatIsNotThere) {
                          "\nENDW\n")),
               ElementsAre("alarm 1156 3:7"));
   EXPECT_THAT(stream(run(machine, "E80000=3 E80001=42\nL0=200 L1=1.25\nG39+ ME80000 ME80001 SL0 KL1 Z-10\n")),
-              ElementsAre("alarm 1153 3:1"));
+              ElementsAre("S200", "tap Z-10 lead1.25", "end 2"));
   EXPECT_THAT(stream(run(machine, "E35324 = 0\n")), ElementsAre("alarm 1156 1:1"));
   EXPECT_THAT(stream(run(machine,
                          "WHILE L0=0 DO G4 F.5 $\nL0=1\nENDW\n$SYNCHRO OK\nM64 M40 M3 S2000\nG4 F5\n"

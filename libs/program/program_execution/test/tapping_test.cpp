@@ -38,6 +38,16 @@ TEST(Tapping, TheSpindleTurnsByTheLead) {
   EXPECT_DOUBLE_EQ(tapping.revolutions(bottom), -161.6);
 }
 
+// 10 mm by 1.2 mm, clockwise, at 1.2 mm times 200 1/min.
+TEST(Tapping, TheRemovalOfATapIsOneStrokeInItsDirection) {
+  auto out = stroke_to(10, 1.2);
+  out.modal.spindle_speed = 200;
+  Tapping tapping;
+  tapping.begin({}, out);
+  EXPECT_DOUBLE_EQ(tapping.revolutions(out.target), 10 / 1.2);
+  EXPECT_DOUBLE_EQ(Tapping::line(out).modal.feed, 240);
+}
+
 TEST(Tapping, TheOverrideDoesNotTakeTheSpindleAboveItsHighestSpeed) {
   EXPECT_EQ(Tapping::override_of(1.5, 500, 0), 1.5) << "no limit";
   EXPECT_EQ(Tapping::override_of(1.5, 500, 750), 1.5);
