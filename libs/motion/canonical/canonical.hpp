@@ -168,6 +168,7 @@ struct Command {
   bool chord = false;      ///< a piece of a smooth curve (G6.2) or of a move with tool vectors (G43.5) that
                            ///< continues behind it: its end is no corner
   bool has_value = false;  ///< of kind auxiliary: the block gives `value`
+  bool out = false;        ///< of kind tap: out of a hole that the tap was left in
   ModalState modal{};
 };
 

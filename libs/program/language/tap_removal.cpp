@@ -31,6 +31,7 @@ Fault TapRemoval::run(std::uint16_t at) {
   }
   StraightMove stroke{CommandKind::tap};
   stroke.value = -lead;
+  stroke.out = true;
   return output_.move_straight(stroke, target);
 }
 

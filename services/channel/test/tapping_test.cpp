@@ -259,6 +259,43 @@ TEST_F(Tap, ATapThatAResetHasLeftIsMovedOutInStepWithTheSpindle) {
   EXPECT_NEAR(rows.back().second, -9.6, 1e-9);
 }
 
+// The hole is at X0 Y0 from Z2 down, its thread right-hand with lead 1.25.
+TEST_F(Tap, ATapThatWasLeftComesOutOnlyAlongItsThreadAlsoInAnotherProcess) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  EXPECT_EQ(core->tap().lead, 1.25);
+  ask(CommandKind::RESET);
+  run();
+  const double from = drive.rows.back()[2];
+  begin(core->running_program());
+  EXPECT_EQ(core->tap(), (program_execution::TapInHole{1.25, {0, 0, 2}, {0, 0, -1}}));
+  const auto moved = drive.rows.size();
+  for (const char* wrong : {"S200 G84.9 Z12 K-1.25\nM30\n", "S200 G84.9 Z12 K1.5\nM30\n",
+                            "S200 G18 G84.9 Z-1 K1.25\nM30\n", "S200 G84.9 X5 K1.25\nM30\n"}) {
+    events.clear();
+    start(wrong);
+    run();
+    ASSERT_FALSE(events.empty()) << wrong;
+    EXPECT_EQ(events.back().alarm, &alarm::tap_removal_thread) << wrong;
+    EXPECT_EQ(drive.rows.size(), moved) << wrong;
+  }
+  start("S200 G84.9 Z12 K1.25\nM30\n");
+  run();
+  EXPECT_NEAR(drive.rows.back()[2], from + 12, 1e-9);
+  EXPECT_EQ(core->tap(), program_execution::TapInHole{});
+  // It is out: there is nothing to compare with.
+  start("S200 G84.9 Z12 K2\nM30\n");
+  run();
+  EXPECT_NEAR(drive.rows.back()[2], from + 24, 1e-9);
+}
+
+TEST_F(Tap, NoTapIsLeftBehindAWholeHole) {
+  start(hole);
+  run();
+  EXPECT_EQ(core->tap(), program_execution::TapInHole{});
+}
+
 TEST_F(Tap, SingleBlockStopsBehindTheHoleNotAtItsBottom) {
   start("G90 G94 S400\nG98 G84 X0 Y0 Z-10 R-2 F500\nG80\nM30\n");
   ask(CommandKind::SINGLE_BLOCK, "", 1);
