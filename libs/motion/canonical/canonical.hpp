@@ -67,7 +67,7 @@ struct ModalState {
   SpindleMode spindle_mode = SpindleMode::speed;
   SpindleDirection spindle_direction = SpindleDirection::stopped;
   double feed = 0;            ///< F as it applies: mm/min (deg/min for purely rotary moves), 1/min, mm/rev
-  double spindle_speed = 0;   ///< S, 1/min; with G96 the one before it
+  double spindle_speed = 0;   ///< S, 1/min; with G96 the one before it, behind G96 without S the one it had
   double surface_speed = 0;   ///< S of G96, m/min
   double spindle_limit = 0;   ///< S of G92, 1/min; 0 = none
   double path_tolerance = 0;  ///< P of G64, mm; 0 = the channel's own
@@ -120,9 +120,9 @@ enum class CommandKind : std::uint8_t {
   message,  ///< number; the text is the comment of its line
   cycle,    ///< number as written to #3100; nothing further is read before Interpreter::answer()
   home,     ///< search the references of the axes of `number` (bit a for Axis a) (G28.2), which end somewhere
-         ///< near target; value = speed of the search per minute as programmed: mm, or inches when not
-         ///< modal.metric, of linear axes, degrees of the others; 0 = the axis' own. No further block is
-         ///< read before Interpreter::set_position()
+            ///< near target; value = speed of the search per minute as programmed: mm, or inches when not
+            ///< modal.metric, of linear axes, degrees of the others; 0 = the axis' own. No further block is
+            ///< read before Interpreter::set_position()
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.
