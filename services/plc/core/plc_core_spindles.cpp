@@ -58,10 +58,10 @@ void PlcCore::take_spindles(const idl::stream::Feedback& feedback) {
     spindle.new_angle =
         spindle.new_angle && synchronized && memory_.scans - spindle.coupling_since < coupling_delay;
     spindle.synchronized = synchronized && !spindle.new_angle;
-    const bool at_speed = state != nullptr && state->condition == SpindleCondition::SPINDLE_AT_SPEED;
+    const bool reached = state != nullptr && state->condition == SpindleCondition::SPINDLE_AT_SPEED;
     spindle.new_surface =
-        spindle.new_surface && at_speed && memory_.scans - memory_.spindle_since[s] < coupling_delay;
-    spindle.surface_reached = spindle.surface.speed != 0 && at_speed && !spindle.new_surface;
+        spindle.new_surface && reached && memory_.scans - memory_.spindle_since[s] < coupling_delay;
+    spindle.surface_reached = spindle.surface.speed != 0 && reached && !spindle.new_surface;
     spindle.homed = state != nullptr && state->homed;
     if (s >= std::min(spindles_, received)) continue;
     const auto& symbols = spindle_symbols_[s];
