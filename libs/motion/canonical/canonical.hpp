@@ -67,7 +67,7 @@ struct ModalState {
   SpindleMode spindle_mode = SpindleMode::speed;
   SpindleDirection spindle_direction = SpindleDirection::stopped;
   double feed = 0;            ///< F as it applies: mm/min (deg/min for purely rotary moves), 1/min, mm/rev
-  double spindle_speed = 0;   ///< S, 1/min; with G96 the one before it
+  double spindle_speed = 0;   ///< S, 1/min; with G96 the one before it, behind G96 without S the one it had
   double surface_speed = 0;   ///< S of G96, m/min
   double spindle_limit = 0;   ///< S of G92, 1/min; 0 = none
   double path_tolerance = 0;  ///< P of G64, mm; 0 = the channel's own

@@ -120,6 +120,8 @@ class CommandOutput {
   Fault end_corner(Command& move, AxisValues& start);
   /// The corner that is held has no move behind it: an alarm of check_room().
   bool lose_corner();
+  /// Of a move at feed from `start` to the position: the pieces but for the last.
+  void push_turned_pieces(const AxisValues& start);
   /// The state of a command that is made now; its frame is kept.
   ModalState command_modal();
 
