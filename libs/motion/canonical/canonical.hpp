@@ -120,9 +120,9 @@ enum class CommandKind : std::uint8_t {
   message,  ///< number; the text is the comment of its line
   cycle,    ///< number as written to #3100; nothing further is read before Interpreter::answer()
   home,     ///< search the references of the axes of `number` (bit a for Axis a) (G28.2), which end somewhere
-         ///< near target; value = speed of the search per minute as programmed: mm, or inches when not
-         ///< modal.metric, of linear axes, degrees of the others; 0 = the axis' own. No further block is
-         ///< read before Interpreter::set_position()
+            ///< near target; value = speed of the search per minute as programmed: mm, or inches when not
+            ///< modal.metric, of linear axes, degrees of the others; 0 = the axis' own. No further block is
+            ///< read before Interpreter::set_position()
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.
