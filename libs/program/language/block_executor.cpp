@@ -220,8 +220,9 @@ char BlockExecutor::orientation_word() const {
     return '\0';
   bool orients = false;
   for (std::size_t i = 0; i < words.m().count; ++i) {
-    if (words.m().codes[i].group == MGroup::flow) return '\0';
-    orients = orients || takes_angle(words.m().codes[i].number);
+    const MCode& code = words.m().codes[i];
+    if (code.action == MAction::call || code.action == MAction::go_back) return '\0';
+    orients = orients || takes_angle(code.number);
   }
   return !orients ? '\0' : words.has('R') ? 'R' : words.has('P') ? 'P' : '\0';
 }

@@ -25,8 +25,8 @@ enum class Step : std::uint8_t {
   alarm,     ///< see alarm(); stays so until start()
   position,  ///< a command before was a skip move or a search for references: set_position() must report
              ///< where it ended, for what the program does next depends on it
-  answer,  ///< the command before calls a cycle of another service: answer() must report what it has said
-  line,    ///< the line of stop_before_line() would be read next; it will be, when next() is called again
+  answer,    ///< the command before calls a cycle of another service: answer() must report what it has said
+  line,      ///< the line of stop_before_line() would be read next; it will be, when next() is called again
 };
 
 struct InterpreterOptions {

@@ -23,6 +23,7 @@ export const gCodes: Readonly<Record<string, string>> = {
   "G24": "mirror on about the coordinates given",
   "G25": "mirror off, of the axes named or of all",
   "G28": "the named axes over the point given to the reference position, in rapid",
+  "G28.2": "search of the references of the axes named, one after the other: X Y Z, U V W, A B C; F its speed, at most the axis' own",
   "G29": "from the reference position over the point of the last G28 or G30 to the point given, in rapid",
   "G30": "as G28 to reference position P2..P4 (2 without P)",
   "G31": "line that ends when skip input L (1 without L) comes",
@@ -86,6 +87,7 @@ export const gCodes: Readonly<Record<string, string>> = {
   "G97": "constant spindle speed: S in 1/min",
   "G98": "cycles end at the level they were called at",
   "G99": "cycles end at R",
+  "G159": "as G28.2; a letter alone names an axis",
 };
 
 /** Calls of macros and cycles, each from the first to the last code. */
@@ -109,7 +111,7 @@ export const mCodes: Readonly<Record<string, string>> = {
   "M7": "mist coolant on",
   "M8": "flood coolant on",
   "M9": "coolant off",
-  "M19": "spindle stop at its reference angle",
+  "M19": "spindle stop at its reference angle, or at R or P in deg",
   "M30": "program end and rewind",
   "M98": "subprogram call: P number, L repetitions",
   "M99": "subprogram end",
