@@ -57,7 +57,7 @@ export interface ChannelState {
   feed: number;
   /** F in mm/min, of the block being executed */
   programmed_feed: number;
-  /** S in 1/min */
+  /** S in 1/min, with G96 in m/min */
   spindle_programmed: number;
   /** 0..1.5 */
   feed_override: number;

@@ -67,7 +67,7 @@ constexpr std::array rows = {
         282, Group::one_block, AxisWords::taken, run<&BlockHandlers::positioning, &Positioning::home>,
         "search of the references of the axes named, one after the other: X Y Z, U V W, A B C; F its speed, "
         "at most the axis' own",
-        Origin::g2core, "0.4", "G28.2 X0 Z0"},
+        Origin::g2core, "0.3", "G28.2 X0 Z0"},
     GCode{290, Group::one_block, AxisWords::taken,
           run<&BlockHandlers::positioning, &Positioning::return_from_reference>,
           "from the reference position over the point of the last G28 or G30 to the point given, in rapid",
@@ -79,13 +79,13 @@ constexpr std::array rows = {
           run<&BlockHandlers::positioning, &Positioning::move_until_skip>,
           "line that ends when skip input L (1 without L) comes", Origin::hnc, "0.2", "G31 L1 X1 F100"},
     GCode{320, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 33>,
-          "as G33", Origin::fanuc, "0.4", "S100 M3\nG32 Z-1 F0.5"},
+          "as G33", Origin::fanuc, "0.3", "S100 M3\nG32 Z-1 F0.5"},
     GCode{330, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 33>,
           "thread: line that follows the turning spindle; F lead in a revolution of the axis that goes "
           "farthest, Q angle of the start behind the index mark in degrees",
-          Origin::iso, "0.4", "S100 M3\nG33 Z-1 F0.5 Q180"},
+          Origin::iso, "0.3", "S100 M3\nG33 Z-1 F0.5 Q180"},
     GCode{340, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 34>,
-          "thread with variable lead: as G33, K change of the lead in each revolution", Origin::iso, "0.4",
+          "thread with variable lead: as G33, K change of the lead in each revolution", Origin::iso, "0.3",
           "S100 M3\nG34 Z-1 F0.5 K0.1"},
     GCode{400, Group::cutter_compensation, AxisWords::move,
           run<&BlockHandlers::tool, &ToolCodes::set_cutter_side, CutterSide::off>,
@@ -270,7 +270,7 @@ constexpr std::array rows = {
           run<&BlockHandlers::modal, &ModalCodes::set_return_level, false>, "cycles end at R", Origin::iso,
           "0.2", "G99"},
     GCode{1590, Group::one_block, AxisWords::taken, run<&BlockHandlers::positioning, &Positioning::home>,
-          "as G28.2; a letter alone names an axis", Origin::num, "0.4", "G159 X Z"},
+          "as G28.2; a letter alone names an axis", Origin::num, "0.3", "G159 X Z"},
 };
 
 constexpr std::uint8_t no_code = 0xff;
