@@ -394,6 +394,21 @@ TEST(NumThreads, G33IsOnePassAndResumesByTheTaughtPosition) {
                 ElementsAre("S500", "M3", "thread X10 Z-10 lead2 from180", "end 2"));
 }
 
+// The program of docs/threads.md: 90 - 360 * 18.5 / 2 = -3240 = 0, and from Z5 -3150 = 90 - 9 * 360.
+TEST(NumThreads, TheIsoDialectTakesAThreadUpByItsStartAngle) {
+  for (const bool farther : {true, false}) {
+    TestMachine iso;
+    const std::string start = farther ? "5.5" : "5";
+    EXPECT_THAT(stream(run(iso, "M3 S500\n#1=-13 #2=90 #3=" + start +
+                                    " #4=2     (taught Z, taught angle, start, lead)\n"
+                                    "#5=#2-360*[#3-#1]/#4         (towards -Z, M3)\n"
+                                    "#5=#5-360*FIX[#5/360]\nIF [#5 LT 0] THEN #5=#5+360\nG0 Z#3\n"
+                                    "G33 Z-20 F#4 Q#5\nM2")),
+                ElementsAre("S500", "M3", "rapid Z" + start,
+                            farther ? "thread Z-20 lead2" : "thread Z-20 lead2 from90", "end 2"));
+  }
+}
+
 TEST(NumThreads, OnlyAResumedThreadBeginsAnotherOne) {
   TestMachine machine = num_machine();
   const Interpretation result =
