@@ -125,7 +125,8 @@ enum class CommandKind : std::uint8_t {
             ///< read before Interpreter::set_position()
   thread,   ///< straight move of linear axes that follows the turning spindle (G33, G34): value = lead at its
             ///< start in mm per revolution of the axis that goes farthest, the first of equal ones. Threads
-            ///< with no other command and no exact stop between them are one thread
+            ///< with no other command and no exact stop between them are one thread; number = 1: begins
+            ///< another one
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.

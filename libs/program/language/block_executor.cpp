@@ -90,6 +90,8 @@ Fault BlockExecutor::run(Flow& flow) {
                                                             : handlers_.tool.radius_word())
     return fault;
   if (const Fault fault = act()) return fault;
+  if (context_.words.thread() == ThreadBlock::alone)
+    context_.state.modal.motion = context_.state.at_block_begin().modal.motion;
   if (const Fault fault = set_flow(flow)) return fault;
   if (const Fault fault = context_.words.report_unused()) return fault;
   m_codes_due_ = context_.activity != Activity::none;
@@ -336,6 +338,13 @@ Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::u
   context_.output.begin(program, line, out);
   context_.output.push(CommandKind::message).number = number;
   context_.output.push(CommandKind::auxiliary).number = 0;
+  return context_.output.settle();
+}
+
+Fault BlockExecutor::home_axis(std::size_t axis, std::uint32_t program, std::uint32_t line,
+                               CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  if (const Fault fault = handlers_.positioning.home_axis(axis)) return fault;
   return context_.output.settle();
 }
 

@@ -17,7 +17,7 @@ namespace trunnion::language {
 struct StraightMove {
   CommandKind kind = CommandKind::line;
   bool chord = false;        ///< as Command::chord
-  std::uint32_t number = 0;  ///< as Command::number of kinds skip and tap
+  std::uint32_t number = 0;  ///< as Command::number of kinds skip, tap and thread
   double value = 0;          ///< as Command::value of kinds tap and thread
   double lead_change = 0;    ///< as Command::lead_change
   double start_angle = 0;    ///< as Command::start_angle

@@ -42,14 +42,19 @@ bool ModalCodes::takes_lead() const {
 }
 
 Fault ModalCodes::feed_word() {
-  if (!words_.has('F')) return {};
+  const char lead_word = words_.lead_word();
+  const bool has_lead = words_.has(lead_word) && takes_lead();
+  if (has_lead) {
+    words_.use(lead_word);
+    const double lead = words_.value(lead_word);
+    if (!(lead > 0)) return {AlarmNumber::thread_lead_missing, words_.offset(lead_word)};
+    state_.thread_lead = lead * words_.length_scale();
+  } else if (lead_word == 'K' && words_.has('K')) {
+    return {AlarmNumber::num_word, words_.offset('K')};
+  }
+  if (!words_.has('F') || (has_lead && lead_word == 'F')) return {};
   words_.use('F');
   const double feed = words_.value('F');
-  if (takes_lead()) {
-    if (!(feed > 0)) return {AlarmNumber::thread_lead_missing, words_.offset('F')};
-    state_.thread_lead = feed * words_.length_scale();
-    return {};
-  }
   if (!(feed > 0)) return {AlarmNumber::feed_not_positive, words_.offset('F')};
   const bool time = state_.modal.feed_mode == FeedMode::inverse_time;
   state_.modal.feed = time ? feed : feed * words_.length_scale();

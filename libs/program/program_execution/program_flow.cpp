@@ -392,11 +392,12 @@ FlowState ProgramFlow::fill(bool single_block) {
         command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
     const bool thread = command_.kind == CommandKind::thread;
     const bool coupled = thread && coupled_threads_;
+    const bool continues = coupled && command_.number == 0;
     const bool move =
         is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke || (thread && !coupled);
-    if (std::exchange(behind_thread_, false) && coupled)
+    if (std::exchange(behind_thread_, false) && continues)
       return fail_search("the line continues a thread: start before the first block of it");
-    if (threading_ && !coupled) {
+    if (threading_ && !continues && !(coupled && legs_.empty())) {
       thread_complete_ = true;
       return FlowState::full;
     }
