@@ -67,7 +67,7 @@ struct ModalState {
   SpindleMode spindle_mode = SpindleMode::speed;
   SpindleDirection spindle_direction = SpindleDirection::stopped;
   double feed = 0;            ///< F as it applies: mm/min (deg/min for purely rotary moves), 1/min, mm/rev
-  double spindle_speed = 0;   ///< S, 1/min; with G96 the one before it
+  double spindle_speed = 0;   ///< S, 1/min; with G96 the one before it, behind G96 without S the one it had
   double surface_speed = 0;   ///< S of G96, m/min
   double spindle_limit = 0;   ///< S of G92, 1/min; 0 = none
   double path_tolerance = 0;  ///< P of G64, mm; 0 = the channel's own
@@ -125,7 +125,8 @@ enum class CommandKind : std::uint8_t {
             ///< read before Interpreter::set_position()
   thread,   ///< straight move of linear axes that follows the turning spindle (G33, G34): value = lead at its
             ///< start in mm per revolution of the axis that goes farthest, the first of equal ones. Threads
-            ///< with no other command and no exact stop between them are one thread
+            ///< with no other command and no exact stop between them are one thread; number = 1: begins
+            ///< another one
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.

@@ -25,8 +25,8 @@ enum class Step : std::uint8_t {
   alarm,     ///< see alarm(); stays so until start()
   position,  ///< a command before was a skip move or a search for references: set_position() must report
              ///< where it ended, for what the program does next depends on it
-  answer,  ///< the command before calls a cycle of another service: answer() must report what it has said
-  line,    ///< the line of stop_before_line() would be read next; it will be, when next() is called again
+  answer,    ///< the command before calls a cycle of another service: answer() must report what it has said
+  line,      ///< the line of stop_before_line() would be read next; it will be, when next() is called again
 };
 
 struct InterpreterOptions {
@@ -202,6 +202,9 @@ class Interpreter {
   State call(const Call& call, std::string_view line);
   State found(TextSource& source, std::uint32_t program, TextPosition top);
   State enter(const Found& target);
+  /// The axis whose number is in L0: X Y Z U V W A B C.
+  std::optional<std::size_t> homing_axis() const;
+  State home_axis();
   State return_from_subprogram(const Flow& flow, std::string_view line);
 
   Environment& environment_;
@@ -226,7 +229,7 @@ class Interpreter {
   std::uint64_t blocks_ = 0, lines_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
-  // A jump that looks for its target, and the alarms if it is not found or not allowed.
+  // A jump or a call that looks for its target, and the alarms if it is not found or not allowed.
   Search search_;
   JumpCache jumps_;
   Alarm not_found_;

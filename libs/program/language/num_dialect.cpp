@@ -2,6 +2,7 @@
 #include "language/num_dialect.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "language/arithmetic.hpp"
@@ -19,6 +20,8 @@ constexpr double highest_sequence_number = 99999999;
 constexpr double largest_parameter = 2147483647;
 constexpr double tap_removal = 84.9;  // of g_codes
 constexpr std::uint32_t num_letters = letter_bits("ABCFHKRSTUVWXYZ");
+constexpr std::uint32_t homing_program = 9990 + 9 * program_tenth;
+constexpr const char* thread_cycle = "thread cutting cycle";
 
 /// E and a letter: words of G84, and of functions that are not there.
 struct PairWord {
@@ -27,10 +30,9 @@ struct PairWord {
   const char* function;  ///< that is not there
 };
 constexpr std::array pair_words = {
-    PairWord{'A', '\0', "thread cutting"},         PairWord{'B', '\0', "thread cutting"},
-    PairWord{'C', '\0', "angle of a spindle"},     PairWord{'H', work_plane_word, ""},
-    PairWord{'K', retract_ratio_word, ""},         PairWord{'R', approach_word, ""},
-    PairWord{'X', '\0', "resumed thread cutting"}, PairWord{'Z', '\0', "resumed thread cutting"},
+    PairWord{'A', '\0', thread_cycle},     PairWord{'B', '\0', thread_cycle},
+    PairWord{'S', '\0', thread_cycle},     PairWord{'H', work_plane_word, ""},
+    PairWord{'K', retract_ratio_word, ""}, PairWord{'R', approach_word, ""},
 };
 
 Fault program_of(double value, std::uint16_t at, std::uint32_t& number) {
@@ -120,7 +122,8 @@ class NumReader {
       if (upper == 'E') return e_item(at);
       if (upper == 'L') return assign_variable(at);
       const char second = letter(scanner_.peek(1));
-      if (second != '\0' && second != 'E' && second != 'L') return {AlarmNumber::unknown_instruction, at};
+      if (second != '\0' && second != 'E' && second != 'L' && !homes(upper))
+        return {AlarmNumber::unknown_instruction, at};
       return word(upper, at);
     }
     if (c == '(') return scanner_.skip_comment() ? Fault{} : Fault{AlarmNumber::open_comment, at};
@@ -160,6 +163,9 @@ class NumReader {
   Fault e_item(std::uint16_t at) {
     const char second = letter(scanner_.peek(1));
     if (second == '\0') return assign_parameter(at);
+    if (second == 'C') return taught_word(taught_angle_word, at);
+    if (second == 'X') return taught_word(taught_x_word, at);
+    if (second == 'Z') return taught_word(taught_z_word, at);
     for (const PairWord& pair : pair_words) {
       if (pair.second != second) continue;
       scanner_.advance(2);
@@ -172,6 +178,20 @@ class NumReader {
       return {};
     }
     return {AlarmNumber::unknown_instruction, at};
+  }
+
+  /// EC, EX and EZ of G33.
+  Fault taught_word(char name, std::uint16_t at) {
+    scanner_.advance(2);
+    double value = 0;
+    if (const Fault fault = number(at, value)) return fault;
+    any_ = true;
+    if (thread_ != NumUse::one_pass)
+      return name == taught_angle_word ? Fault{AlarmNumber::num_function_missing, at, "angle of a spindle"}
+                                       : Fault{AlarmNumber::num_word, at};
+    if (block_.has(name)) return {AlarmNumber::letter_twice, at};
+    store(name, value, at);
+    return {};
   }
 
   Fault assigned(double& value) {
@@ -228,9 +248,13 @@ class NumReader {
     scanner_.advance();
     if (name == 'G') return g_word(at);
     if (name == 'N') return sequence_number(at);
+    if (thread_ == NumUse::one_pass && (name == 'P' || name == 'Q'))
+      return {AlarmNumber::num_function_missing, at, thread_cycle};
     if (name != 'M' && (num_letters & Block::bit(name)) == 0) return {AlarmNumber::num_word, at};
     double value = 0;
-    if (const Fault fault = number(at, value)) return fault;
+    if (!names_axis(name)) {
+      if (const Fault fault = number(at, value)) return fault;
+    }
     any_ = true;
     if (name == 'M') {
       if (value == 30 || value == 98 || value == 99) return {AlarmNumber::num_m_unknown, at};
@@ -239,6 +263,16 @@ class NumReader {
     if (block_.has(name)) return {AlarmNumber::letter_twice, at};
     store(name, value, at);
     return {};
+  }
+
+  /// `name` may be one of the axes of G159.
+  bool homes(char name) const { return homes_ && (Block::bit(name) & axis_bits) != 0; }
+  /// It is, and has no number.
+  bool names_axis(char name) {
+    if (!homes(name)) return false;
+    if (!scanner_.more()) return true;
+    const char next = scanner_.peek();
+    return letter(next) != '\0' || next == '(' || next == '$';
   }
 
   Fault sequence_number(std::uint16_t at) {
@@ -274,8 +308,6 @@ class NumReader {
     switch (code->use) {
       case NumUse::wait_mark:
         return {AlarmNumber::num_wait_mark, at};
-      case NumUse::missing:
-        return {AlarmNumber::num_function_missing, at, code->meaning};
       case NumUse::jump:
         return jump(at);
       case NumUse::call:
@@ -296,6 +328,14 @@ class NumReader {
         removes_ = true;
         removal_at_ = at;
         break;
+      case NumUse::thread:
+      case NumUse::resumed:
+      case NumUse::one_pass:
+        if (const Fault fault = thread(code->use, at)) return fault;
+        break;
+      case NumUse::home:
+        homes_ = true;
+        break;
       case NumUse::code:
         break;
     }
@@ -303,6 +343,23 @@ class NumReader {
     if (block_.g_count == max_g_codes) return {AlarmNumber::too_many_codes, at};
     const double value = code->use == NumUse::removal ? tap_removal : code->code;
     block_.g[block_.g_count++] = {value, at};
+    return {};
+  }
+
+  Fault thread(NumUse use, std::uint16_t at) {
+    if (thread_ != NumUse::code) return {AlarmNumber::group_twice, at};
+    thread_ = use;
+    thread_at_ = at;
+    if (use != NumUse::resumed) return {};
+    for (const bool distance : {true, false}) {
+      if (!skip_remarks(scanner_)) return {AlarmNumber::open_comment, scanner_.offset()};
+      const std::uint16_t word_at = scanner_.offset();
+      if (!scanner_.take_word(distance ? "J" : "EC"))
+        return {AlarmNumber::missing_word, at, "needs J and EC behind it"};
+      double value = 0;
+      if (const Fault fault = number(word_at, value)) return fault;
+      store(distance ? 'J' : taught_angle_word, value, word_at);
+    }
     return {};
   }
 
@@ -328,8 +385,10 @@ class NumReader {
   }
 
   Fault complete() {
+    block_.lead_word = 'K';
+    if (const Fault fault = complete_thread()) return fault;
     if (const Fault fault = calls_ ? complete_call() : check_no_call()) return fault;
-    if (const Fault fault = removes_ ? complete_removal() : taps_ ? complete_tap() : check_no_tap())
+    if (const Fault fault = removes_ ? complete_removal() : taps_ ? check_tap() : check_no_tap())
       return fault;
     if (dwells_) {
       if (const Fault fault = complete_dwell()) return fault;
@@ -337,6 +396,36 @@ class NumReader {
     if (assigned_ && block_.statement == Statement::none && !block_.has_more())
       block_.statement = Statement::assignment;
     return {};
+  }
+
+  Fault complete_thread() {
+    if (thread_ == NumUse::code) return {};
+    if (!block_.has('K')) return {AlarmNumber::missing_word, thread_at_, needs('K')};
+    if (thread_ == NumUse::thread) return {};
+    if ((block_.letters & axis_bits) == 0) return {AlarmNumber::missing_word, thread_at_, "needs an axis"};
+    block_.thread = thread_ == NumUse::resumed ? ThreadBlock::first : ThreadBlock::alone;
+    return thread_ == NumUse::resumed ? Fault{} : check_one_pass();
+  }
+
+  /// The words of G33.
+  Fault check_one_pass() const {
+    const std::uint32_t of_cycle = block_.letters & letter_bits("FRS");
+    if (of_cycle != 0) return {AlarmNumber::num_function_missing, first_offset(of_cycle), thread_cycle};
+    const std::uint32_t other_axes = block_.letters & axis_bits & ~letter_bits("XZ");
+    if (other_axes != 0) return {AlarmNumber::num_word, first_offset(other_axes)};
+    const bool angle = block_.has(taught_angle_word), x = block_.has(taught_x_word),
+               z = block_.has(taught_z_word);
+    if (x && z) return {AlarmNumber::num_thread_data, block_.offset(taught_z_word), "both EX and EZ"};
+    if ((x || z) && !angle)
+      return {AlarmNumber::num_thread_data, block_.offset(x ? taught_x_word : taught_z_word), "needs EC"};
+    if (angle && !x && !z)
+      return {AlarmNumber::num_thread_data, block_.offset(taught_angle_word), "needs EZ or EX"};
+    return {};
+  }
+
+  /// Of the first of `letters` in the alphabet.
+  std::uint16_t first_offset(std::uint32_t letters) const {
+    return block_.offsets[static_cast<std::size_t>(std::countr_zero(letters))];
   }
 
   Fault check_no_call() const {
@@ -356,17 +445,13 @@ class NumReader {
   }
 
   Fault check_no_tap() const {
-    for (const char word : {'K', retract_ratio_word, work_plane_word, approach_word})
+    for (const char word : {retract_ratio_word, work_plane_word, approach_word})
       if (block_.has(word)) return {AlarmNumber::num_word, block_.offset(word)};
     return {};
   }
 
-  /// K of the codes here means repetitions.
-  Fault complete_tap() {
-    if (!block_.has('K')) return {AlarmNumber::missing_word, tap_at_, needs('K')};
-    block_.letters &= ~Block::bit('K');
-    store(lead_word, block_.value('K'), block_.offset('K'));
-    return {};
+  Fault check_tap() const {
+    return block_.has('K') ? Fault{} : Fault{AlarmNumber::missing_word, tap_at_, needs('K')};
   }
 
   static Fault wrong_removal(std::uint16_t at) { return {AlarmNumber::num_removal_words, at, "NUM error 2"}; }
@@ -401,8 +486,7 @@ class NumReader {
     if (senses == 0) return wrong_removal(removal_at_);
     if (senses > 1 || ranges > 1) return {AlarmNumber::num_removal_twice, removal_at_, "NUM error 1"};
     block_.m_count = kept;
-    block_.letters &= ~Block::bit('K');
-    store(lead_word, clockwise ? -block_.value('K') : block_.value('K'), block_.offset('K'));
+    if (clockwise) block_.values['K' - 'A'] = -block_.value('K');
     return add_m(2, removal_at_);
   }
 
@@ -426,11 +510,14 @@ class NumReader {
   bool done_ = false;  // nothing more of the line is read
   bool any_ = false;   // more than N was read: no structure or jump may come
   bool assigned_ = false;
-  bool calls_ = false, dwells_ = false, taps_ = false, removes_ = false;
-  std::uint16_t call_at_ = 0, dwell_at_ = 0, tap_at_ = 0, removal_at_ = 0;
+  bool calls_ = false, dwells_ = false, homes_ = false, taps_ = false, removes_ = false;
+  NumUse thread_ = NumUse::code;  // that of G33, G38 or G38+; code: the block has none of them
+  std::uint16_t call_at_ = 0, dwell_at_ = 0, thread_at_ = 0, tap_at_ = 0, removal_at_ = 0;
 };
 
 }  // namespace
+
+DialectRules NumDialect::rules() const { return {true, false, homing_program}; }
 
 Fault NumDialect::read_block(std::string_view line, SkipLevels skip, Variables& variables,
                              Block& block) const {

@@ -12,7 +12,7 @@ constexpr double shortest_tap = 0.001;  // mm
 }  // namespace
 
 Fault NumTapping::run() {
-  if (!words_.has(lead_word)) {
+  if (!words_.g().has(Group::cycle)) {
     // The document does not say whether such a block taps again.
     const bool axes = (words_.letters() & axis_bits) != 0;
     return axes ? Fault{AlarmNumber::num_tap_modal, words_.offset_of_any(axis_bits)} : Fault{};
@@ -21,7 +21,6 @@ Fault NumTapping::run() {
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   Tap tap;
   if (const Fault fault = read(at, tap)) return fault;
-  state_.change_settings().cycle.by_lead = true;
   ModalState& modal = state_.modal;
   const SpindleDirection turned = modal.spindle_direction;
   const bool clockwise = turned == SpindleDirection::cw;
@@ -50,8 +49,8 @@ Fault NumTapping::read(std::uint16_t at, Tap& tap) {
   if (axes != (1u << X) && axes != (1u << Z)) return {AlarmNumber::num_tap_axis, at};
   tap.axis = axes == (1u << X) ? X : Z;
   if (!modal.absolute) return {AlarmNumber::num_tap_incremental, at};
-  tap.lead = words_.length(lead_word);
-  if (!(tap.lead > 0)) return {AlarmNumber::num_tap_lead, words_.offset(lead_word)};
+  tap.lead = words_.length('K');
+  if (!(tap.lead > 0)) return {AlarmNumber::num_tap_lead, words_.offset('K')};
   const bool speed = modal.spindle_mode == SpindleMode::speed && modal.spindle_speed > 0;
   if (!speed || modal.spindle_direction == SpindleDirection::stopped)
     return {AlarmNumber::num_tap_spindle, at};

@@ -14,10 +14,9 @@ class NumTapping : private BlockHandler {
  public:
   explicit NumTapping(BlockContext& context) : BlockHandler(context) {}
 
-  /// Whether the cycle of a block, which is not G80, is this one.
-  bool active() const {
-    return words_.has(lead_word) || (state_.settings().cycle.by_lead && !words_.g().has(Group::cycle));
-  }
+  /// Whether the cycle of a block, which is not G80, is this one: that of NUM is the only one with its lead
+  /// in K.
+  bool active() const { return words_.lead_word() == 'K'; }
   /// Such a block: the whole tap. Behind G84 no axis word may come without a G function of motion or G80.
   Fault run();
 

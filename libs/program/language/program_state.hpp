@@ -20,7 +20,6 @@ struct CycleWords {
   bool has_r = false;
   std::array<double, 2> shift{};   ///< of G76 and G87, mm in the plane
   std::uint32_t tapping_axis = 0;  ///< as Command::number of kind tap
-  bool by_lead = false;            ///< the cycle is rigid tapping of the NUM dialect
 };
 
 /// What only few blocks change.

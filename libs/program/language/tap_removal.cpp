@@ -17,11 +17,10 @@ Fault TapRemoval::run(std::uint16_t at) {
   if (!std::has_single_bit(axes) || (axes & tapping_axes) == 0 || state_.modal.mirrored)
     return {AlarmNumber::tap_removal_axis, at};
   // A reader of another dialect has made the hand of the thread out of M3 or M4.
-  const bool checked = !words_.has(lead_word);
-  const char word = checked ? 'K' : lead_word;
-  if (!words_.has(word)) return {AlarmNumber::missing_word, at, needs('K')};
-  const double lead = words_.length(word);
-  if (lead == 0) return {AlarmNumber::tap_removal_lead, words_.offset(word)};
+  const bool checked = words_.lead_word() != 'K';
+  if (!words_.has('K')) return {AlarmNumber::missing_word, at, needs('K')};
+  const double lead = words_.length('K');
+  if (lead == 0) return {AlarmNumber::tap_removal_lead, words_.offset('K')};
   if (const Fault fault = check_spindle(at)) return fault;
   const auto axis = static_cast<std::size_t>(std::countr_zero(axes));
   AxisValues target = state_.program_position;

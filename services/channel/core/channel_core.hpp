@@ -275,7 +275,7 @@ class ChannelCore {
   std::uint8_t role() const;
   void change_table(const language::Command& command);
   void count_part();
-  void begin_auxiliary(const program_execution::AuxiliaryFunction& function);
+  void begin_auxiliary(program_execution::AuxiliaryFunction function);
 
   void begin_cycle(const language::Command& command);
   void settle_cycle();

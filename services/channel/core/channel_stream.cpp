@@ -139,6 +139,9 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
     add_offset(out, by_hand ? setpoint.position : path().machine_of(setpoint.position));
   out.line = setpoint.line;
   if (tapping_.active()) out.spindle = tapping_.revolutions(setpoint.position);
+  // Moved by hand, or to the program, axes leave the spindle as it is.
+  if (states_.interpreting() && (states_.is(Activity::mdi) || on_program_path()))
+    out.radius = flow().turning_radius(setpoint.sequence, setpoint.position);
   out.stopped = setpoint.path_speed == 0;
   out.at_rest = setpoint.at_rest;
   out.holding = braking();
