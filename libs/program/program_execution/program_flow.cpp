@@ -152,6 +152,7 @@ void ProgramFlow::set_threading(bool threading) {
 
 // The axes are at rest: the guard may take its time.
 FlowState ProgramFlow::take_leg() {
+  if (!without_reference_.empty()) return fail_without_reference();
   const auto from = legs_.empty() ? motion_->end_position() : legs_.back().target;
   if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
   auto free = ask_guard(from);

@@ -84,7 +84,7 @@ TEST(TurningShares, AreWhereACircleTurnsBackAlongAnAxis) {
   EXPECT_EQ(turning_shares({10}, arc, Z)[0], -1) << "the circle is across it";
   arc.sweep = 60;
   EXPECT_EQ(turning_shares({10}, arc, Y)[0], -1) << "it ends before";
-  // From (6, 8) anticlockwise it is 90 - atan(8 / 6) = 36.87 degrees to the largest Y: 0.1 turns of 368.7.
+  // From (6, 8) anticlockwise it is 90 - atan(8 / 6) = 36.87 degrees to the largest Y, a tenth of 368.7.
   arc.sweep = 10 * (90 - std::atan2(8, 6) * degrees_per_radian);
   arc.clockwise = false;
   EXPECT_NEAR(turning_shares({6, 8}, arc, Y)[0], 0.1, 1e-12);

@@ -613,6 +613,17 @@ TEST_F(NumThreadFlow, AProgramMayBeginWithAResumedThreadButNotBehindItsFirstBloc
   }
 }
 
+// As behind a start from the line of the thread, which passes over M3.
+TEST_F(ThreadFlow, AThreadWithoutReferencesIsAnAlarmBeforeItBegins) {
+  flow.set_coupled_threads(true);
+  reach_thread("G90 S100 M3\nG33 Z-5 F2\n");
+  flow.set_without_reference("Z");
+  flow.set_threading(true);
+  EXPECT_EQ(flow.fill(false), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::axes_without_reference));
+  EXPECT_TRUE(flow.legs().empty());
+}
+
 TEST_F(ThreadFlow, AThreadOutOfTravelIsAnAlarmBeforeItBegins) {
   flow.set_coupled_threads(true);
   reach_thread("G90 S100 M3\nG33 Z-5 F2\nZ-401\n");
