@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <ostream>
 
 #include "analysis/json_lines.hpp"
@@ -70,18 +69,17 @@ bool check(ProgramReader& reader, const language::Environment& environment, lang
   const auto lines = std::make_unique<JsonLines>(out, environment.axes());
   MotionTracker tracker(environment, reader.interpreter(), start);
   Summary summary(environment.axes());
+  language::Command turned;  // with G96 the feed per revolution is that of the move
   reader.on_command = [&](const language::Command& command, const language::Command& move) {
     if (!options.json_lines) summary.add(command);
-    // With G96 the feed per revolution is that of the move.
-    std::optional<language::Command> turned;
     const bool turns = command.modal.spindle_mode == language::SpindleMode::surface &&
                        command.modal.feed_mode == language::FeedMode::per_revolution &&
                        move.modal.feed_mode == language::FeedMode::per_minute;
     if (turns) {
       turned = command;
-      turned->modal.feed = move.modal.feed, turned->modal.feed_mode = move.modal.feed_mode;
+      turned.modal.feed = move.modal.feed, turned.modal.feed_mode = move.modal.feed_mode;
     }
-    const auto motion = tracker.follow(turned ? *turned : command);
+    const auto motion = tracker.follow(turns ? turned : command);
     if (!motion) return;
     if (options.json_lines)
       lines->motion(*motion);
