@@ -132,8 +132,8 @@ FlowState ProgramFlow::push_move() {
     move.modal.feed *= speed_of_feed(from, move);
     move.modal.feed_mode = language::FeedMode::per_minute;
   }
-  const bool partly = entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0;
-  const bool taken = partly ? motion_->push_from(move, entry_.restart.fraction) : motion_->push(move);
+  const bool taken =
+      begins_within() ? motion_->push_from(move, entry_.restart.fraction) : motion_->push(move);
   if (!taken)
     return fail(language::AlarmNumber::feed_not_positive,
                 "feed must be above zero (per revolution: with the spindle turning)");
@@ -153,6 +153,7 @@ void ProgramFlow::set_threading(bool threading) {
 
 // The axes are at rest: the guard may take its time.
 FlowState ProgramFlow::take_leg() {
+  if (!without_reference_.empty()) return fail_without_reference();
   const auto from = legs_.empty() ? motion_->end_position() : legs_.back().target;
   if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
   auto free = ask_guard(from);
@@ -178,9 +179,10 @@ double ProgramFlow::speed_of_feed(const AxisValues& from, const language::Comman
   const double centre = frame == nullptr ? 0 : frame->total_offset()[language::X];
   double radius = std::max(std::abs(from[language::X] - centre), std::abs(move.target[language::X] - centre));
   if (move.kind == CommandKind::arc) {
-    constexpr int parts = 8;
-    for (int i = 1; i < parts; ++i) {
-      const auto point = language::point_on_arc(from, move.target, move.arc, static_cast<double>(i) / parts);
+    const auto arc = remaining_arc(from);
+    for (const double share : language::turning_shares(from, arc, language::X)) {
+      if (share < 0) continue;
+      const auto point = language::point_on_arc(from, move.target, arc, share);
       radius = std::max(radius, std::abs(point[language::X] - centre));
     }
   }
@@ -189,13 +191,21 @@ double ProgramFlow::speed_of_feed(const AxisValues& from, const language::Comman
       canonical::lower_limit(modal.spindle_limit, environment_.highest_spindle_speed()));
 }
 
-// The circle of a restart in the middle of an arc is what is left of it.
+bool ProgramFlow::begins_within() const {
+  return entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0;
+}
+
+language::Arc ProgramFlow::remaining_arc(const AxisValues& from) const {
+  auto arc = command_.arc;
+  if (begins_within())
+    arc.sweep = motion::remaining_sweep(from, command_.target, arc, entry_.restart.fraction);
+  return arc;
+}
+
 FlowState ProgramFlow::ask_guard(const AxisValues& from) {
   if (guard_ == nullptr) return FlowState::full;
   auto move = command_;
-  if (entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0 &&
-      move.kind == CommandKind::arc)
-    move.arc.sweep = motion::remaining_sweep(from, move.target, move.arc, entry_.restart.fraction);
+  if (move.kind == CommandKind::arc) move.arc = remaining_arc(from);
   switch (guard_->check(from, move)) {
     case MoveGuard::Verdict::free:
       return FlowState::full;

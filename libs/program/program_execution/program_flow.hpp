@@ -193,6 +193,10 @@ class ProgramFlow {
   FlowState push_move();
   /// 1/min that a feed per revolution of `move` from `from` counts with.
   double speed_of_feed(const AxisValues& from, const language::Command& move) const;
+  /// The pending command is that of the restart, which begins in the middle of it.
+  bool begins_within() const;
+  /// The circle of the pending arc, from where it begins.
+  language::Arc remaining_arc(const AxisValues& from) const;
   FlowState fail_without_reference();
   /// Full: motion may have the pending move. Waiting: the guard has not finished. Else alarm.
   FlowState ask_guard(const AxisValues& from);

@@ -7,6 +7,12 @@
 #include "canonical/turning_speed.hpp"
 
 namespace trunnion::drive {
+namespace {
+
+/// 0 also for what is no number.
+double above_zero(double value) { return value > 0 ? value : 0; }
+
+}  // namespace
 
 // The PLC repeats its orders: the radius of one that was taken is older than that of the setpoints.
 void SurfaceSpeeds::demand(const std::vector<idl::plc::SurfaceSpeed>& speeds) {
@@ -33,9 +39,8 @@ void SurfaceSpeeds::pass(std::uint16_t channel) {
 
 double SurfaceSpeeds::speed(std::size_t spindle) const {
   const auto& order = orders_[spindle];
-  const double radius = std::max(places_[order.channel].radius, 0.0);
-  return std::copysign(canonical::turning_speed(std::abs(order.speed), radius, std::max(order.limit, 0.0)),
-                       order.speed);
+  const double radius = above_zero(places_[order.channel].radius), limit = above_zero(order.limit);
+  return std::copysign(canonical::turning_speed(std::abs(order.speed), radius, limit), order.speed);
 }
 
 bool SurfaceSpeeds::any() const {

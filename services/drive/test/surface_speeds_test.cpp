@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "channel_streams.hpp"
 #include "snapshot/fields.hpp"
 
@@ -46,6 +48,8 @@ TEST(SurfaceSpeeds, FollowTheRadiusWithinTheLimit) {
   EXPECT_NEAR(speeds.speed(0), -954.930, 1e-3) << "1.2 times 795.775 1/min";
   speeds.demand(order(200, 40, 0));
   EXPECT_EQ(speeds.speed(0), 0) << "without a limit it does not turn";
+  speeds.demand(order(200, 40, std::nan("")));
+  EXPECT_EQ(speeds.speed(0), 0) << "nor with one that is no number";
   speeds.demand({});
   EXPECT_FALSE(speeds.follows(0));
 }

@@ -284,9 +284,12 @@ TEST_F(Flow, AFeedPerRevolutionNeedsATurningSpindle) {
 }
 
 // 200 m/min are 795.77 1/min at 40 mm, 875.35 1/min at 40 / 1.1 mm and at most 3000 1/min. The half circle
-// from Z 0 to Z -20 has its largest X in the middle, 30 mm: 1061.03 1/min.
+// from Z 0 to Z -20 has its largest X in the middle, 30 mm: 1061.03 1/min. That of the circle of 1 mm is 21
+// mm: 1515.76 1/min.
 TEST_F(Flow, AFeedPerRevolutionWithG96IsThatOfTheSpeedAtTheLargestRadius) {
-  start("G90 G95 F0.1\nG92 S3000\nG96 S200\nG0 X40\nG1 Z-1\nX0\nG0 X20 Z0\nG18 G3 X20 Z-20 K-10\n");
+  start(
+      "G90 G95 F0.1\nG92 S3000\nG96 S200\nG0 X40\nG1 Z-1\nX0\nG0 X20 Z0\nG18 G3 X20 Z-20 K-10\n"
+      "G0 X20.6 Z0\nG2 X20.6 Z0 I-0.6 K-0.8\n");
   ASSERT_EQ(run(), FlowState::command);
   EXPECT_EQ(flow.pending().kind, CommandKind::spindle_speed);
   flow.finish_pending();
@@ -297,7 +300,8 @@ TEST_F(Flow, AFeedPerRevolutionWithG96IsThatOfTheSpeedAtTheLargestRadius) {
   EXPECT_NEAR(moves[3].modal.feed, 87.535, 1e-3) << "the second piece";
   EXPECT_NEAR(moves[16].modal.feed, 300, 1e-9) << "from 10.61 mm to the centre";
   EXPECT_EQ(moves[16].target[language::X], 0);
-  EXPECT_NEAR(moves.back().modal.feed, 106.103, 1e-3) << "the half circle";
+  EXPECT_NEAR(moves[moves.size() - 3].modal.feed, 106.103, 1e-3) << "the half circle";
+  EXPECT_NEAR(moves.back().modal.feed, 151.576, 1e-3) << "the circle";
   EXPECT_NEAR(flow.turning_radius(moves[2].sequence, {25}).value(), 25, 1e-12);
   start("G90 G95 F0.1 S500\nG1 X10\n");
   ASSERT_EQ(run(), FlowState::command);
@@ -608,6 +612,17 @@ TEST_F(NumThreadFlow, AProgramMayBeginWithAResumedThreadButNotBehindItsFirstBloc
     trajectory->start(flow.position(), language::Transformation::none, 0);
     EXPECT_EQ(run(), line == 4 ? FlowState::alarm : FlowState::command) << line;
   }
+}
+
+// As behind a start from the line of the thread, which passes over M3.
+TEST_F(ThreadFlow, AThreadWithoutReferencesIsAnAlarmBeforeItBegins) {
+  flow.set_coupled_threads(true);
+  reach_thread("G90 S100 M3\nG33 Z-5 F2\n");
+  flow.set_without_reference("Z");
+  flow.set_threading(true);
+  EXPECT_EQ(flow.fill(false), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::axes_without_reference));
+  EXPECT_TRUE(flow.legs().empty());
 }
 
 TEST_F(ThreadFlow, AThreadOutOfTravelIsAnAlarmBeforeItBegins) {
