@@ -239,8 +239,8 @@ class Cluster {
         },
         seconds);
   }
-  /// After a kill: resets until nothing is left that could stop another program. The drive owes the channel no
-  /// setpoint whose absence it could still report (110).
+  /// After a kill: resets until nothing is left that could stop another program. The drive owes the channel
+  /// no setpoint whose absence it could still report (110).
   bool begin_anew(std::uint16_t channel = 0) {
     client_->channel(channel, CommandKind::RESET);
     return until([&] {
