@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every machine starts, runs its short program in virtual time and stops; wrong input stops it with one line.
+#include <algorithm>
+#include <cmath>
+
 #include "cluster_harness.hpp"
 
 namespace trunnion::integration {
@@ -90,6 +93,41 @@ TEST(Machines, TheSubSpindleOfTheLatheTakesThePartOverAtItsAngle) {
   EXPECT_GT(over_the_part, 0u);
   EXPECT_EQ(synchronized, over_the_part);
   EXPECT_LT(worst, 0.5 / 360);
+}
+
+// Every pass begins at Z6, which is 126 in the machine, and X is below 10 only while it cuts: a radius, of
+// words up to X19.4. On the pitch line of the index mark the main spindle has turned once for each 1.5 mm.
+// Run-in and run-out are below 1 mm of the 36, and 25 mm at 20 um in a cycle are 1250 rows of each of the
+// four passes.
+TEST(Machines, TheLatheCutsAThreadOnOnePitchLineInAllPasses) {
+  constexpr double start = 126, lead = 1.5;  // mm
+  Cluster cluster("lathe");
+  std::size_t passes = 0, rows = 0;
+  bool within = false;
+  double worst = 0;  // mm
+  cluster.on_batch = [&](const idl::stream::Feedback& feedback) {
+    const std::size_t spindles = feedback.spindles.size();
+    if (spindles != 2 || feedback.spindle_angle.size() < feedback.count * spindles) return;
+    for (std::size_t i = 0; i < feedback.count; ++i) {
+      const double* axes = &feedback.actual[i * feedback.axis_count];
+      const double depth = start - axes[1];
+      const bool cuts = axes[0] < 10 && depth > 5 && depth < 30;
+      passes += cuts && !within ? 1u : 0u;
+      within = cuts;
+      if (!cuts) continue;
+      ++rows;
+      const double angle = feedback.spindle_angle[i * spindles];
+      worst = std::max(worst, std::abs(lead * std::remainder(angle - depth / lead, 1.0)));
+    }
+  };
+  cluster.start("thread.nc");
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  EXPECT_EQ(cluster.active_alarms(), "");
+  EXPECT_TRUE(cluster.rests()) << cluster.told();
+  EXPECT_EQ(cluster.lost_batches, 0u);
+  EXPECT_EQ(passes, 4u);
+  EXPECT_GE(rows, 4900u);
+  EXPECT_LT(worst, 0.01);
 }
 
 // A process of another make writes what no field can have: nothing of it takes effect, no service ends, and

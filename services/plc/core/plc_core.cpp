@@ -246,6 +246,12 @@ bool PlcCore::waits_for_standstill() const {
   return false;
 }
 
+bool PlcCore::waits_for_run() const {
+  for (std::size_t c = 0; c < channel_count; ++c)
+    if (memory_.handshakes[c].state == HandshakeState::waiting && at_standstill(c)) return continues_main();
+  return false;
+}
+
 void PlcCore::give_up_waiting() {
   view_.stopped_waiting = true;
   view_.changed = true;
@@ -257,8 +263,10 @@ void PlcCore::set_strobes(bool present) {
     auto& h = memory_.handshakes[c];
     const auto& s = channel_symbols_[c];
     // A strobe rises after the answer to the one before has fallen, and never in scans for past ticks: the
-    // times after it would count from then.
-    if (present && h.state == HandshakeState::waiting && plc::load(r, s.fin) == 0 && at_standstill(c)) {
+    // times after it would count from then. Nor within a run of the main task that is spread over scans: its
+    // end would answer a function that its beginning has not seen.
+    if (present && !continues_main() && h.state == HandshakeState::waiting && plc::load(r, s.fin) == 0 &&
+        at_standstill(c)) {
       h.state = HandshakeState::strobe;
       if (h.kind == AuxiliaryKind::M) {
         store(r, s.m_code, h.code);
@@ -350,7 +358,7 @@ void PlcCore::advance(std::uint64_t tick) {
     scan(memory_.scans % main_period == 0 || continues_main(), false);
   }
   if (view_.changed || ended || structured_.timer_due(now)) settle();
-  view_.changed = false;
+  view_.changed = waits_for_run();
   view_.press_acted = view_.press_acted || emergency_stop();
   unscanned_.reset();
 }

@@ -136,6 +136,8 @@ class PlcCore {
   void scan(bool main, bool present);
   void run_task(TaskName task);
   bool continues_main() const { return memory_.program.main.interrupted != 0; }
+  /// A request waits for the end of that run alone.
+  bool waits_for_run() const;
   void settle();
   void find_control();
   void set_control(idl::plc::Outputs& outputs) const;
