@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "canonical/spindle_value.hpp"
 #include "language/arithmetic.hpp"
 #include "language/letters.hpp"
 #include "language/macro_call.hpp"
@@ -26,9 +27,9 @@ struct PairWord {
 };
 constexpr std::array pair_words = {
     PairWord{'A', "thread cutting"},         PairWord{'B', "thread cutting"},
-    PairWord{'C', "angle of a spindle"},     PairWord{'H', "rigid tapping"},
-    PairWord{'K', "rigid tapping"},          PairWord{'R', "rigid tapping"},
-    PairWord{'X', "resumed thread cutting"}, PairWord{'Z', "resumed thread cutting"},
+    PairWord{'H', "rigid tapping"},          PairWord{'K', "rigid tapping"},
+    PairWord{'R', "rigid tapping"},          PairWord{'X', "resumed thread cutting"},
+    PairWord{'Z', "resumed thread cutting"},
 };
 
 Fault program_of(double value, std::uint16_t at, std::uint32_t& number) {
@@ -158,6 +159,7 @@ class NumReader {
   Fault e_item(std::uint16_t at) {
     const char second = letter(scanner_.peek(1));
     if (second == '\0') return assign_parameter(at);
+    if (second == 'C') return spindle_angle(at);
     for (const PairWord& pair : pair_words) {
       if (pair.second != second) continue;
       scanner_.advance(2);
@@ -166,6 +168,21 @@ class NumReader {
       return {AlarmNumber::num_function_missing, at, pair.function};
     }
     return {AlarmNumber::unknown_instruction, at};
+  }
+
+  /// EC: the angle of the synchronizations that are ordered from now on.
+  Fault spindle_angle(std::uint16_t at) {
+    scanner_.advance(2);
+    double value = 0;
+    if (const Fault fault = number(at, value)) return fault;
+    any_ = assigned_ = true;
+    return order(canonical::order_angle, value, at);
+  }
+
+  Fault order(std::uint32_t number, double value, std::uint16_t at) {
+    Fault fault = variables_.write_external(number, value);
+    fault.offset = at;
+    return fault;
   }
 
   Fault assigned(double& value) {
@@ -189,12 +206,16 @@ class NumReader {
     ExternalPlace place;
     double value = 0;
     if (const Fault fault = expressions_.parameter(at, place)) return fault;
-    if (!place.is_free()) {
-      return {place.row->writable ? AlarmNumber::num_parameter_unavailable : AlarmNumber::variable_read_only,
-              at, place.name()};
-    }
+    if (!place.is_free() && !place.row->writable) return {AlarmNumber::variable_read_only, at, place.name()};
     if (const Fault fault = assigned(value)) return fault;
     value = nearly_whole(value);
+    if (!place.is_free()) {
+      Fault fault = order(place.number(), value, at);
+      if (fault && fault.number != value_pending && fault.detail == nullptr &&
+          fault.number != AlarmNumber::spindle_without_mark)
+        fault.detail = place.name();
+      return fault;
+    }
     if (value != std::floor(value) || std::abs(value) > largest_parameter)
       return {AlarmNumber::variable_value, at, "a whole number"};
     const AlarmNumber alarm = variables_.write(first_free_variable + place.index, Value::of(value));

@@ -18,10 +18,12 @@ namespace trunnion::language {
 ///   with what was assigned before them;
 /// - IF condition THEN, ELSE, ENDI; WHILE condition DO, ENDW: first in their line; behind THEN and DO may be
 ///   words, assignments and a message, behind the others nothing;
+/// - E94125=24 orders the synchronization of a spindle, EC its angle: the block waits until both spindles are
+///   known to be homed. Values that the drive knows (E93525) are read at rest, before their block;
 /// - G77 Hn.i calls a program, behind the words of its block; the end of its text, the next head or M2 ends
 /// it.
 ///   G79 Nn and G79 condition Nn jump, alone in their block.
-/// What other functions take, EK EH ER EC EZ EX EA EB among it, is an alarm with its name.
+/// What other functions take, EK EH ER EZ EX EA EB among it, is an alarm with its name.
 class NumDialect final : public Dialect {
  public:
   DialectRules rules() const override { return {true, false}; }
