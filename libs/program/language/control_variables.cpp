@@ -17,7 +17,7 @@ constexpr std::uint32_t basic_offsets = 6;   // G54 .. G59
 
 using canonical::SpindleValue;
 
-constexpr double largest_angle = 360;              // deg, of EC
+constexpr double largest_added_angle = 360;        // deg, of EC
 constexpr std::uint32_t spindle_variables = 4801;  // of the first value; those of the next are 10 behind
 constexpr std::uint32_t values_apart = 10;
 constexpr std::uint32_t num_spindles = 4;       // B1 to B4
@@ -40,7 +40,7 @@ constexpr std::array live_parameters = {
     LiveParameter{95224, SpindleValue::error},
 };
 
-bool within(std::uint32_t number, std::uint32_t first) {
+bool of_spindles(std::uint32_t number, std::uint32_t first) {
   return number >= first && number - first < num_spindles;
 }
 
@@ -121,7 +121,7 @@ AlarmNumber ControlVariables::spindle_value(SpindleValue value, std::uint32_t sp
 
 AlarmNumber ControlVariables::live_parameter(std::uint32_t number, double& value) const {
   for (const LiveParameter& live : live_parameters) {
-    if (!within(number, live.first)) continue;
+    if (!of_spindles(number, live.first)) continue;
     const AlarmNumber alarm = spindle_value(live.value, number - live.first, value);
     if (alarm == AlarmNumber::none) value = external_unit(live.value, value);
     return alarm;
@@ -172,12 +172,13 @@ Fault ControlVariables::check_master(std::uint32_t slave, double address) const 
 
 Fault ControlVariables::write_external(std::uint32_t number, double value) {
   if (number == canonical::order_angle) {
-    if (std::abs(value) > largest_angle) return {AlarmNumber::value_range, 0, "the angle is -360 to 360 deg"};
-  } else if (within(number, speed_control)) {
+    if (std::abs(value) > largest_added_angle)
+      return {AlarmNumber::value_range, 0, "the angle is -360 to 360 deg"};
+  } else if (of_spindles(number, speed_control)) {
     return value == 0 ? Fault{} : Fault{AlarmNumber::variable_value, 0, "0: speed control"};
-  } else if (within(number, canonical::order_master)) {
+  } else if (of_spindles(number, canonical::order_master)) {
     if (const Fault fault = check_master(number - canonical::order_master, value)) return fault;
-  } else if (within(number, canonical::order_integral)) {
+  } else if (of_spindles(number, canonical::order_integral)) {
     if (!environment_.external_parameter(number)) return {AlarmNumber::num_parameter_unavailable, 0};
   } else if (environment_.external_changes(number, value).count == 0) {
     return {AlarmNumber::num_parameter_unavailable, 0};
@@ -408,7 +409,7 @@ AlarmNumber ControlVariables::order(const VariableRange& range, std::uint32_t in
     if (value != 0 && value != 1 && value != 2) return AlarmNumber::variable_value;
     request.index = canonical::order_integral + index;
     request.value = value == 2 ? -1 : value;
-  } else if (std::abs(value) > largest_angle) {
+  } else if (std::abs(value) > largest_added_angle) {
     return AlarmNumber::variable_value;
   }
   requests_[request_count_++] = request;
@@ -449,9 +450,9 @@ Fault ControlVariables::carry_out(std::uint32_t program, std::uint32_t line, Com
 // another one than before.
 Fault ControlVariables::carry_out_external(const Request& request, std::uint32_t program, std::uint32_t line,
                                            CommandQueue& out) {
-  const bool integral = within(request.index, canonical::order_integral);
-  const bool of_plc =
-      integral || request.index == canonical::order_angle || within(request.index, canonical::order_master);
+  const bool integral = of_spindles(request.index, canonical::order_integral);
+  const bool of_plc = integral || request.index == canonical::order_angle ||
+                      of_spindles(request.index, canonical::order_master);
   Programmed* before = nullptr;
   for (std::size_t i = 0; i < programmed_count_; ++i)
     if (programmed_[i].number == request.index) before = &programmed_[i];
