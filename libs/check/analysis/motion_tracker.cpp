@@ -60,8 +60,8 @@ std::optional<double> feed_of(const Command& command, double length) {
   const language::ModalState& modal = command.modal;
   if (command.kind == CommandKind::rapid) return std::nullopt;
   if (command.kind == CommandKind::tap) {
-    return modal.spindle_speed > 0 ? std::optional(std::abs(command.value) * modal.spindle_speed)
-                                   : std::nullopt;
+    const double speed = stroke_speed(command);
+    return speed > 0 ? std::optional(std::abs(command.value) * speed) : std::nullopt;
   }
   switch (modal.feed_mode) {
     case language::FeedMode::inverse_time:

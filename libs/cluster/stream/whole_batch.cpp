@@ -68,6 +68,8 @@ void check_batch(BatchCheck& check, const Batch& batch, std::size_t columns) {
     check.rows_or_none("spindle", batch.spindle, batch.count, 1);
   check.reachable("setpoints", batch.setpoints);
   check.reachable("spindle", batch.spindle);
+  check.rows_or_none("turning_radius", batch.turning_radius, batch.count, 1);
+  check.reachable("turning_radius", batch.turning_radius);
   check.within("states", batch.states.size(), 0, most_states);
 }
 

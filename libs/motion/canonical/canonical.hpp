@@ -67,7 +67,7 @@ struct ModalState {
   SpindleMode spindle_mode = SpindleMode::speed;
   SpindleDirection spindle_direction = SpindleDirection::stopped;
   double feed = 0;            ///< F as it applies: mm/min (deg/min for purely rotary moves), 1/min, mm/rev
-  double spindle_speed = 0;   ///< S, 1/min; with G96 the one before it
+  double spindle_speed = 0;   ///< S, 1/min; with G96 the one before it, behind G96 without S the one it had
   double surface_speed = 0;   ///< S of G96, m/min
   double spindle_limit = 0;   ///< S of G92, 1/min; 0 = none
   double path_tolerance = 0;  ///< P of G64, mm; 0 = the channel's own
@@ -125,7 +125,8 @@ enum class CommandKind : std::uint8_t {
             ///< read before Interpreter::set_position()
   thread,   ///< straight move of linear axes that follows the turning spindle (G33, G34): value = lead at its
             ///< start in mm per revolution of the axis that goes farthest, the first of equal ones. Threads
-            ///< with no other command and no exact stop between them are one thread
+            ///< with no other command and no exact stop between them are one thread; number = 1: begins
+            ///< another one
   read,     ///< a value of a spindle (canonical/spindle_value.hpp) behind dwell_seconds at rest, number as
             ///< read_number(); nothing further is read before Interpreter::give_value()
   spindle_order,  ///< what the PLC is to do with a spindle: number as order_master and others, value
@@ -166,11 +167,18 @@ struct Command {
                              ///< the angle of M19, deg in [0, 360)
   double lead_change = 0;    ///< of kind thread: mm per revolution in each revolution
   double start_angle = 0;    ///< of kind thread: degrees behind the index mark, in the spindle's direction
+  double spindle_speed = 0;  ///< of kind tap: 1/min; 0 = modal.spindle_speed
   Table table = Table::none;  ///< of kind table
   bool chord = false;      ///< a piece of a smooth curve (G6.2) or of a move with tool vectors (G43.5) that
                            ///< continues behind it: its end is no corner
   bool has_value = false;  ///< of kind auxiliary: the block gives `value`
+  bool out = false;        ///< of kind tap: out of a hole that the tap was left in
   ModalState modal{};
 };
+
+/// 1/min at which the spindle makes a stroke of kind tap.
+inline double stroke_speed(const Command& stroke) {
+  return stroke.spindle_speed > 0 ? stroke.spindle_speed : stroke.modal.spindle_speed;
+}
 
 }  // namespace trunnion::canonical

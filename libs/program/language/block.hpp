@@ -60,7 +60,18 @@ struct CallCentre {
 
 /// Words behind a comma, kept as two further letters: ,C a chamfer and ,R a rounding at the end of the move.
 inline constexpr char chamfer_word = 'A' + 26, rounding_word = 'A' + 27;
-inline constexpr std::size_t word_count = 28;
+/// The NUM dialect has no commas, but words of two letters: EC, EX and EZ of threads, EK, EH and ER of rigid
+/// tapping.
+inline constexpr char taught_angle_word = 'A' + 26, taught_x_word = 'A' + 27, taught_z_word = 'A' + 28;
+inline constexpr char retract_ratio_word = 'A' + 29, work_plane_word = 'A' + 30, approach_word = 'A' + 31;
+inline constexpr std::size_t word_count = 32;
+
+/// What the thread of a block has to do with the threads around it.
+enum class ThreadBlock : std::uint8_t {
+  chained,  ///< one thread with those that come directly before and behind it
+  first,    ///< begins a thread (NUM: G38+)
+  alone,    ///< is a whole thread; the motion code from before it is active again behind it (NUM: G33)
+};
 
 /// A letter except G and M occurs at most once in a block, so words are looked up by letter.
 struct Block {
@@ -68,6 +79,8 @@ struct Block {
   bool skipped = false;  ///< begins with / and that level is switched on; nothing else of it was read
   bool message = false;  ///< shows the text behind $ of its line (NUM)
   bool condition = false;
+  char lead_word = 'F';  ///< of threads and taps; with K (NUM), F is a feed
+  ThreadBlock thread = ThreadBlock::chained;
   Statement statement = Statement::none;
   std::uint8_t g_count = 0;
   std::uint8_t m_count = 0;
@@ -78,7 +91,7 @@ struct Block {
   std::uint32_t program_number = 0;
   std::uint32_t called = 0;  ///< the program that the M98 among `m` calls, when P does not name it; 0: P does
   std::uint32_t pointed = 0;  ///< those of `letters` whose number is written with a decimal point
-  std::uint32_t letters = 0;  ///< bit 0 = A .. bit 25 = Z, then ,C and ,R; G and M are not in it
+  std::uint32_t letters = 0;  ///< bit 0 = A .. bit 25 = Z, then the others; G and M are not in it
   std::array<double, word_count> values{};
   std::array<std::uint16_t, word_count> offsets{};
   std::array<CodeWord, max_g_codes> g{};
@@ -98,6 +111,8 @@ struct Block {
   void clear() {
     head = Head::none;
     skipped = message = false;
+    lead_word = 'F';
+    thread = ThreadBlock::chained;
     statement = Statement::none;
     called = 0;
     g_count = m_count = centre_count = argument_count = 0;
@@ -121,6 +136,7 @@ using SkipLevels = std::uint16_t;
 struct DialectRules {
   bool text_ends_subprograms = false;  ///< their text or M2 ends them, and the caller continues
   bool cycle_m_codes = true;           ///< the M codes of parameters 010170 .. 010177 call cycles
+  std::uint32_t homing_program = 0;    ///< a call of it, unless it is stored, homes the axis of L0; 0: none
 };
 
 /// How one dialect writes blocks. A reader hands over the codes of `g_codes` and `m_codes`, under whatever

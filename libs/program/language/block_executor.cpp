@@ -92,6 +92,8 @@ Fault BlockExecutor::run(Flow& flow) {
                                                             : handlers_.tool.radius_word())
     return fault;
   if (const Fault fault = act()) return fault;
+  if (context_.words.thread() == ThreadBlock::alone)
+    context_.state.modal.motion = context_.state.at_block_begin().modal.motion;
   if (const Fault fault = set_flow(flow)) return fault;
   if (const Fault fault = context_.words.report_unused()) return fault;
   m_codes_due_ = context_.activity != Activity::none;
@@ -171,7 +173,8 @@ Fault BlockExecutor::act() {
     if (taken || one_block) return {};
   }
   const ModalState& modal = context_.state.modal;
-  if (modal.cycle != 80) return handlers_.cycles.run();
+  if (modal.cycle != 80)
+    return handlers_.num_tapping.active() ? handlers_.num_tapping.run() : handlers_.cycles.run();
   if (modal.motion == 62) return handlers_.curve.begin();
   return handlers_.motion.move();
 }
@@ -242,8 +245,9 @@ char BlockExecutor::orientation_word() const {
     return '\0';
   bool orients = false;
   for (std::size_t i = 0; i < words.m().count; ++i) {
-    if (words.m().codes[i].group == MGroup::flow) return '\0';
-    orients = orients || takes_angle(words.m().codes[i].number);
+    const MCode& code = words.m().codes[i];
+    if (code.action == MAction::call || code.action == MAction::go_back) return '\0';
+    orients = orients || takes_angle(code.number);
   }
   return !orients ? '\0' : words.has('R') ? 'R' : words.has('P') ? 'P' : '\0';
 }
@@ -357,6 +361,13 @@ Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::u
   context_.output.begin(program, line, out);
   context_.output.push(CommandKind::message).number = number;
   context_.output.push(CommandKind::auxiliary).number = 0;
+  return context_.output.settle();
+}
+
+Fault BlockExecutor::home_axis(std::size_t axis, std::uint32_t program, std::uint32_t line,
+                               CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  if (const Fault fault = handlers_.positioning.home_axis(axis)) return fault;
   return context_.output.settle();
 }
 

@@ -92,6 +92,9 @@ class BlockExecutor {
   /// read.
   Fault message(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
+  /// Appends the search for the reference of `axis` at F, if the channel has it.
+  Fault home_axis(std::size_t axis, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+
   /// Appends the call of a cycle of another service, `number` as Command::number. Not with cutter radius
   /// compensation: its moves need blocks that are not read yet.
   Fault call_cycle(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);

@@ -127,7 +127,10 @@ double BlockWords::length(char letter) {
 }
 
 double BlockWords::axis(std::size_t axis) const {
-  const double word = block_->value(axis_letters[axis]);
+  return in_axis_unit(block_->value(axis_letters[axis]), axis);
+}
+
+double BlockWords::in_axis_unit(double word, std::size_t axis) const {
   if (is_rotary(axis)) return word;
   return word * length_scale() * (diameter_ && axis == X ? 0.5 : 1.0);
 }

@@ -209,6 +209,9 @@ class Interpreter {
   State call(const Call& call, std::string_view line);
   State found(TextSource& source, std::uint32_t program, TextPosition top);
   State enter(const Found& target);
+  /// The axis whose number is in L0: X Y Z U V W A B C.
+  std::optional<std::size_t> homing_axis() const;
+  State home_axis();
   State return_from_subprogram(const Flow& flow, std::string_view line);
 
   Environment& environment_;
@@ -233,7 +236,7 @@ class Interpreter {
   std::uint64_t blocks_ = 0, lines_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
-  // A jump that looks for its target, and the alarms if it is not found or not allowed.
+  // A jump or a call that looks for its target, and the alarms if it is not found or not allowed.
   Search search_;
   JumpCache jumps_;
   Alarm not_found_;

@@ -168,6 +168,7 @@ Interpreter::State Interpreter::search_ended() {
   if (search_.purpose == Purpose::program && call_.kind != CallKind::cycle) {
     TextSource* const other = environment_.subprogram(ProgramName(call_.number).view());
     if (other != nullptr) return found(*other, call_.number, {});
+    if (rules_.homing_program != 0 && call_.number == rules_.homing_program) return home_axis();
     // The old form: the last four digits are the program, those before them count.
     constexpr std::uint32_t four_digits = 10000;
     if (!call_.counted && call_.number > four_digits && call_.number % four_digits != 0) {

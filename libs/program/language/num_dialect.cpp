@@ -2,6 +2,7 @@
 #include "language/num_dialect.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "canonical/spindle_value.hpp"
@@ -18,18 +19,23 @@ namespace {
 
 constexpr double highest_sequence_number = 99999999;
 constexpr double largest_parameter = 2147483647;
-constexpr std::uint32_t num_letters = letter_bits("ABCFHRSTUVWXYZ");
+constexpr double tap_removal = 84.9;    // of g_codes
+constexpr double thread_motion = 33;    // the same
+constexpr double active_motion = 4001;  // variable with the motion code in force
+constexpr std::uint32_t num_letters = letter_bits("ABCFHKRSTUVWXYZ");
+constexpr std::uint32_t homing_program = 9990 + 9 * program_tenth;
+constexpr const char* thread_cycle = "thread cutting cycle";
 
-/// E and a letter: the words of functions that are not there.
+/// E and a letter: words of G84, and of functions that are not there.
 struct PairWord {
   char second;
-  const char* function;
+  char word;             ///< of the block; zero when the function is not there
+  const char* function;  ///< that is not there
 };
 constexpr std::array pair_words = {
-    PairWord{'A', "thread cutting"},         PairWord{'B', "thread cutting"},
-    PairWord{'H', "rigid tapping"},          PairWord{'K', "rigid tapping"},
-    PairWord{'R', "rigid tapping"},          PairWord{'X', "resumed thread cutting"},
-    PairWord{'Z', "resumed thread cutting"},
+    PairWord{'A', '\0', thread_cycle},     PairWord{'B', '\0', thread_cycle},
+    PairWord{'S', '\0', thread_cycle},     PairWord{'H', work_plane_word, ""},
+    PairWord{'K', retract_ratio_word, ""}, PairWord{'R', approach_word, ""},
 };
 
 Fault program_of(double value, std::uint16_t at, std::uint32_t& number) {
@@ -119,7 +125,8 @@ class NumReader {
       if (upper == 'E') return e_item(at);
       if (upper == 'L') return assign_variable(at);
       const char second = letter(scanner_.peek(1));
-      if (second != '\0' && second != 'E' && second != 'L') return {AlarmNumber::unknown_instruction, at};
+      if (second != '\0' && second != 'E' && second != 'L' && !homes(upper))
+        return {AlarmNumber::unknown_instruction, at};
       return word(upper, at);
     }
     if (c == '(') return scanner_.skip_comment() ? Fault{} : Fault{AlarmNumber::open_comment, at};
@@ -159,27 +166,52 @@ class NumReader {
   Fault e_item(std::uint16_t at) {
     const char second = letter(scanner_.peek(1));
     if (second == '\0') return assign_parameter(at);
-    if (second == 'C') return spindle_angle(at);
+    if (second == 'C') return takes_up() ? taught_word(taught_angle_word, at) : spindle_angle(at);
+    if (second == 'X') return taught_word(taught_x_word, at);
+    if (second == 'Z') return taught_word(taught_z_word, at);
     for (const PairWord& pair : pair_words) {
       if (pair.second != second) continue;
       scanner_.advance(2);
       double value = 0;
       if (const Fault fault = number(at, value)) return fault;
-      return {AlarmNumber::num_function_missing, at, pair.function};
+      if (pair.word == '\0') return {AlarmNumber::num_function_missing, at, pair.function};
+      any_ = true;
+      if (block_.has(pair.word)) return {AlarmNumber::letter_twice, at};
+      store(pair.word, value, at);
+      return {};
     }
     return {AlarmNumber::unknown_instruction, at};
   }
 
-  /// EC: the angle of the synchronizations that are ordered from now on.
+  /// The thread of the block may begin in phase with one that is there: EC is its angle.
+  bool takes_up() const { return thread_ == NumUse::one_pass || thread_ == NumUse::resumed; }
+
+  /// EC, EX and EZ of G33; G38+ has its EC already.
+  Fault taught_word(char name, std::uint16_t at) {
+    scanner_.advance(2);
+    double value = 0;
+    if (const Fault fault = number(at, value)) return fault;
+    any_ = true;
+    if (thread_ != NumUse::one_pass && name != taught_angle_word) return {AlarmNumber::num_word, at};
+    if (block_.has(name)) return {AlarmNumber::letter_twice, at};
+    store(name, value, at);
+    return {};
+  }
+
+  /// EC elsewhere: the angle of the synchronizations that are ordered from now on.
   Fault spindle_angle(std::uint16_t at) {
     scanner_.advance(2);
     double value = 0;
     if (const Fault fault = number(at, value)) return fault;
     any_ = assigned_ = true;
+    orders_angle_ = true;
+    angle_at_ = at;
     return order(canonical::order_angle, value, at);
   }
 
   Fault order(std::uint32_t number, double value, std::uint16_t at) {
+    if (!orders_) order_at_ = at;
+    orders_ = true;
     Fault fault = variables_.write_external(number, value);
     fault.offset = at;
     return fault;
@@ -243,9 +275,13 @@ class NumReader {
     scanner_.advance();
     if (name == 'G') return g_word(at);
     if (name == 'N') return sequence_number(at);
+    if (thread_ == NumUse::one_pass && (name == 'P' || name == 'Q'))
+      return {AlarmNumber::num_function_missing, at, thread_cycle};
     if (name != 'M' && (num_letters & Block::bit(name)) == 0) return {AlarmNumber::num_word, at};
     double value = 0;
-    if (const Fault fault = number(at, value)) return fault;
+    if (!names_axis(name)) {
+      if (const Fault fault = number(at, value)) return fault;
+    }
     any_ = true;
     if (name == 'M') {
       if (value == 30 || value == 98 || value == 99) return {AlarmNumber::num_m_unknown, at};
@@ -254,6 +290,16 @@ class NumReader {
     if (block_.has(name)) return {AlarmNumber::letter_twice, at};
     store(name, value, at);
     return {};
+  }
+
+  /// `name` may be one of the axes of G159.
+  bool homes(char name) const { return homes_ && (Block::bit(name) & axis_bits) != 0; }
+  /// It is, and has no number.
+  bool names_axis(char name) {
+    if (!homes(name)) return false;
+    if (!scanner_.more()) return true;
+    const char next = scanner_.peek();
+    return letter(next) != '\0' || next == '(' || next == '$';
   }
 
   Fault sequence_number(std::uint16_t at) {
@@ -289,8 +335,6 @@ class NumReader {
     switch (code->use) {
       case NumUse::wait_mark:
         return {AlarmNumber::num_wait_mark, at};
-      case NumUse::missing:
-        return {AlarmNumber::num_function_missing, at, code->meaning};
       case NumUse::jump:
         return jump(at);
       case NumUse::call:
@@ -303,12 +347,46 @@ class NumReader {
         dwells_ = true;
         dwell_at_ = at;
         break;
+      case NumUse::tap:
+        taps_ = true;
+        tap_at_ = at;
+        break;
+      case NumUse::removal:
+        removes_ = true;
+        removal_at_ = at;
+        break;
+      case NumUse::thread:
+      case NumUse::resumed:
+      case NumUse::one_pass:
+        if (const Fault fault = thread(code->use, at)) return fault;
+        break;
+      case NumUse::home:
+        homes_ = true;
+        break;
       case NumUse::code:
         break;
     }
     any_ = true;
     if (block_.g_count == max_g_codes) return {AlarmNumber::too_many_codes, at};
-    block_.g[block_.g_count++] = {static_cast<double>(code->code), at};
+    const double value = code->use == NumUse::removal ? tap_removal : code->code;
+    block_.g[block_.g_count++] = {value, at};
+    return {};
+  }
+
+  Fault thread(NumUse use, std::uint16_t at) {
+    if (thread_ != NumUse::code) return {AlarmNumber::group_twice, at};
+    thread_ = use;
+    thread_at_ = at;
+    if (use != NumUse::resumed) return {};
+    for (const bool distance : {true, false}) {
+      if (!skip_remarks(scanner_)) return {AlarmNumber::open_comment, scanner_.offset()};
+      const std::uint16_t word_at = scanner_.offset();
+      if (!scanner_.take_word(distance ? "J" : "EC"))
+        return {AlarmNumber::missing_word, at, "needs J and EC behind it"};
+      double value = 0;
+      if (const Fault fault = number(word_at, value)) return fault;
+      store(distance ? 'J' : taught_angle_word, value, word_at);
+    }
     return {};
   }
 
@@ -334,13 +412,61 @@ class NumReader {
   }
 
   Fault complete() {
+    block_.lead_word = 'K';
+    if (const Fault fault = check_order()) return fault;
+    if (const Fault fault = complete_thread()) return fault;
     if (const Fault fault = calls_ ? complete_call() : check_no_call()) return fault;
+    if (const Fault fault = removes_ ? complete_removal() : taps_ ? check_tap() : check_no_tap())
+      return fault;
     if (dwells_) {
       if (const Fault fault = complete_dwell()) return fault;
     }
     if (assigned_ && block_.statement == Statement::none && !block_.has_more())
       block_.statement = Statement::assignment;
     return {};
+  }
+
+  /// An order is carried out at rest, so it would end the thread that its block continues. In a block with a
+  /// code of a thread, or with G39+, EC is no order.
+  Fault check_order() const {
+    if (!orders_) return {};
+    if (orders_angle_ && removes_) return wrong_removal(removal_at_);
+    if (orders_angle_ && thread_ != NumUse::code) return {AlarmNumber::num_word, angle_at_};
+    if (block_.g_count != 0 || (block_.letters & axis_bits) == 0) return {};
+    Value motion;
+    const AlarmNumber alarm = variables_.read(active_motion, motion);
+    const bool continues = alarm == AlarmNumber::none && motion.number == thread_motion;
+    return continues ? Fault{AlarmNumber::num_word, order_at_} : Fault{};
+  }
+
+  Fault complete_thread() {
+    if (thread_ == NumUse::code) return {};
+    if (!block_.has('K')) return {AlarmNumber::missing_word, thread_at_, needs('K')};
+    if (thread_ == NumUse::thread) return {};
+    if ((block_.letters & axis_bits) == 0) return {AlarmNumber::missing_word, thread_at_, "needs an axis"};
+    block_.thread = thread_ == NumUse::resumed ? ThreadBlock::first : ThreadBlock::alone;
+    return thread_ == NumUse::resumed ? Fault{} : check_one_pass();
+  }
+
+  /// The words of G33.
+  Fault check_one_pass() const {
+    const std::uint32_t of_cycle = block_.letters & letter_bits("FRS");
+    if (of_cycle != 0) return {AlarmNumber::num_function_missing, first_offset(of_cycle), thread_cycle};
+    const std::uint32_t other_axes = block_.letters & axis_bits & ~letter_bits("XZ");
+    if (other_axes != 0) return {AlarmNumber::num_word, first_offset(other_axes)};
+    const bool angle = block_.has(taught_angle_word), x = block_.has(taught_x_word),
+               z = block_.has(taught_z_word);
+    if (x && z) return {AlarmNumber::num_thread_data, block_.offset(taught_z_word), "both EX and EZ"};
+    if ((x || z) && !angle)
+      return {AlarmNumber::num_thread_data, block_.offset(x ? taught_x_word : taught_z_word), "needs EC"};
+    if (angle && !x && !z)
+      return {AlarmNumber::num_thread_data, block_.offset(taught_angle_word), "needs EZ or EX"};
+    return {};
+  }
+
+  /// Of the first of `letters` in the alphabet.
+  std::uint16_t first_offset(std::uint32_t letters) const {
+    return block_.offsets[static_cast<std::size_t>(std::countr_zero(letters))];
   }
 
   Fault check_no_call() const {
@@ -357,6 +483,52 @@ class NumReader {
     block_.letters &= ~Block::bit('H');
     block_.offsets['P' - 'A'] = at;  // where an alarm of the call points
     return add_m(98, call_at_);
+  }
+
+  Fault check_no_tap() const {
+    for (const char word : {retract_ratio_word, work_plane_word, approach_word})
+      if (block_.has(word)) return {AlarmNumber::num_word, block_.offset(word)};
+    return {};
+  }
+
+  Fault check_tap() const {
+    return block_.has('K') ? Fault{} : Fault{AlarmNumber::missing_word, tap_at_, needs('K')};
+  }
+
+  static Fault wrong_removal(std::uint16_t at) { return {AlarmNumber::num_removal_words, at, "NUM error 2"}; }
+
+  /// The sense in which the spindle turns while the tap moves out is that of the hand of its thread: a
+  /// right-hand one comes out counter-clockwise. The PLC gets neither M3 and M4 nor the range. M2 ends it.
+  Fault complete_removal() {
+    constexpr std::uint32_t axes = letter_bits("UVWXYZ"), others = letter_bits("KNS");
+    const bool has_words =
+        block_.has('S') && block_.has('K') && block_.value('K') > 0 && (block_.letters & axes) != 0;
+    if (!has_words || (block_.letters & ~(axes | others)) != 0 || block_.g_count != 1 || calls_)
+      return wrong_removal(removal_at_);
+    int senses = 0, ranges = 0;
+    bool clockwise = false;
+    std::uint8_t kept = 0;
+    for (std::size_t i = 0; i < block_.m_count; ++i) {
+      const CodeWord m = block_.m[i];
+      const auto within = [&](double first, double last) {
+        return m.value == std::floor(m.value) && m.value >= first && m.value <= last;
+      };
+      if (within(3, 4)) {
+        ++senses;
+        clockwise = m.value == 3;
+      } else if (within(40, 45)) {
+        ++ranges;
+      } else if (within(64, 66)) {
+        block_.m[kept++] = m;
+      } else {
+        return wrong_removal(m.offset);
+      }
+    }
+    if (senses == 0) return wrong_removal(removal_at_);
+    if (senses > 1 || ranges > 1) return {AlarmNumber::num_removal_twice, removal_at_, "NUM error 1"};
+    block_.m_count = kept;
+    if (clockwise) block_.values['K' - 'A'] = -block_.value('K');
+    return add_m(2, removal_at_);
   }
 
   /// The time of G4 is a word X of the codes here, in seconds.
@@ -379,11 +551,16 @@ class NumReader {
   bool done_ = false;  // nothing more of the line is read
   bool any_ = false;   // more than N was read: no structure or jump may come
   bool assigned_ = false;
-  bool calls_ = false, dwells_ = false;
-  std::uint16_t call_at_ = 0, dwell_at_ = 0;
+  bool orders_ = false, orders_angle_ = false;
+  bool calls_ = false, dwells_ = false, homes_ = false, taps_ = false, removes_ = false;
+  NumUse thread_ = NumUse::code;  // that of G33, G38 or G38+; code: the block has none of them
+  std::uint16_t call_at_ = 0, dwell_at_ = 0, thread_at_ = 0, tap_at_ = 0, removal_at_ = 0;
+  std::uint16_t order_at_ = 0, angle_at_ = 0;
 };
 
 }  // namespace
+
+DialectRules NumDialect::rules() const { return {true, false, homing_program}; }
 
 Fault NumDialect::read_block(std::string_view line, SkipLevels skip, Variables& variables,
                              Block& block) const {

@@ -72,9 +72,17 @@ Fault PathMotion::cut_thread() {
   if (const Fault fault = words_.find_axes(axes)) return fault;
   words_.use_axes();
   const std::uint16_t at = words_.offset_of_any(axis_bits);
+  // On NUM controls a block that continues a thread has its end and perhaps its lead, and nothing else.
+  if (words_.lead_word() == 'K' && !words_.g().has(Group::motion)) {
+    if (words_.has_codes()) return {AlarmNumber::num_word, words_.first_offset()};
+    if (words_.shows_message()) return {AlarmNumber::num_word, at};
+    const std::uint32_t others = words_.letters() & ~(axis_bits | letter_bits("KN"));
+    if (others != 0) return {AlarmNumber::num_word, words_.offset_of_any(others)};
+  }
   if (const Fault fault = check_thread(at)) return fault;
   StraightMove move{CommandKind::thread};
   move.value = state_.thread_lead;
+  move.number = words_.thread() == ThreadBlock::chained ? 0 : 1;
   if (state_.modal.motion == 34) {
     if (!words_.has('K')) return {AlarmNumber::missing_word, at, needs('K')};
     move.lead_change = words_.length('K');
@@ -86,8 +94,51 @@ Fault PathMotion::cut_thread() {
       return {AlarmNumber::value_range, words_.offset('Q'), "degrees, from 0 to below 360"};
   }
   const AxisValues target = programmed_target(axes);
+  if (words_.has(taught_angle_word)) {
+    if (const Fault fault = resume_thread(target, move.start_angle)) return fault;
+  }
   if (const Fault fault = check_lead(at, state_.command_from_program(target), move)) return fault;
+  if (words_.thread() == ThreadBlock::alone) output_.stop_exactly_once();
   return output_.move_straight(move, target);
+}
+
+// On the pitch line the spindle has the taught angle where the axis with the lead is at the taught place.
+Fault PathMotion::resume_thread(const AxisValues& target, double& start_angle) {
+  const AxisValues end = state_.command_from_program(target);
+  AxisValues way{};
+  std::size_t axis = X;
+  for (std::size_t a = 0; a < axis_count; ++a) {
+    if (is_rotary(a)) continue;
+    way[a] = end[a] - state_.position[a];
+    if (std::abs(way[a]) > std::abs(way[axis])) axis = a;
+  }
+  const double farthest = std::abs(way[axis]);
+  const auto leads = [&](std::size_t a) { return farthest - std::abs(way[a]) <= no_distance; };
+  double distance = 0;
+  if (words_.has('J')) {
+    // Of axes that go equally far the one in whose direction J is.
+    for (std::size_t a = 0; a < axis_count; ++a) {
+      if (is_rotary(a) || !leads(a) || (way[a] > 0) != (words_.value('J') > 0)) continue;
+      axis = a;
+      break;
+    }
+    distance = words_.along('J', axis);
+  } else {
+    axis = words_.has(taught_x_word) ? X : Z;
+    const char word = axis == X ? taught_x_word : taught_z_word;
+    if (!leads(axis))
+      return {AlarmNumber::num_thread_data, words_.offset(word),
+              axis == X ? "X does not go farthest" : "Z does not go farthest"};
+    distance = words_.along(word, axis) - state_.program_position[axis];
+  }
+  words_.use(taught_angle_word);
+  const bool clockwise = state_.modal.spindle_direction == SpindleDirection::cw;
+  const double taught = words_.value(taught_angle_word);
+  const double turns = (way[axis] > 0 ? distance : -distance) / state_.thread_lead;
+  start_angle = std::fmod((clockwise ? taught : -taught) - 360 * turns, 360.0);
+  if (start_angle < 0) start_angle += 360;
+  if (!(start_angle > 0 && start_angle < 360)) start_angle = 0;
+  return {};
 }
 
 Fault PathMotion::check_thread(std::uint16_t at) const {

@@ -19,6 +19,9 @@ class PathMotion : private BlockHandler {
  private:
   /// G33 and G34.
   Fault cut_thread();
+  /// The start angle of a thread to `target` that is in phase with the one that J, EX or EZ and EC describe
+  /// (NUM).
+  Fault resume_thread(const AxisValues& target, double& start_angle);
   /// What the program has set allows a thread.
   Fault check_thread(std::uint16_t at) const;
   /// The lead over the whole way to `target`, in the frame of the commands.

@@ -47,6 +47,20 @@ Fault Positioning::home(std::uint16_t at) {
   }
   std::uint32_t axes = 0;
   if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  search_references(axes, speed);
+  return {};
+}
+
+Fault Positioning::home_axis(std::size_t axis) {
+  if (((environment_.axes() >> axis) & 1u) == 0) return {};
+  if (const Fault fault = check_machine_coordinates(0)) return fault;
+  const ModalState& modal = state_.modal;
+  const bool per_minute = modal.feed_mode == FeedMode::per_minute;
+  search_references(1u << axis, per_minute ? modal.feed / words_.length_scale() : 0);
+  return {};
+}
+
+void Positioning::search_references(std::uint32_t axes, double speed) {
   const AxisValues reference = environment_.reference_position();
   Command& command = output_.push(CommandKind::home);
   command.number = axes;
@@ -56,7 +70,6 @@ Fault Positioning::home(std::uint16_t at) {
   }
   state_.homed = static_cast<std::uint16_t>(state_.homed | axes);
   state_.needs_position = state_.homing = true;
-  return {};
 }
 
 Fault Positioning::return_to_numbered_reference(std::uint16_t at) {

@@ -11,6 +11,8 @@ void AuxiliaryMemory::pass(const language::Command& command) {
   if (command.kind == CommandKind::spindle_speed) {
     has_speed_ = true;
     speed_ = command.value;
+    surface_ = command.modal.spindle_mode == language::SpindleMode::surface;
+    limit_ = surface_ ? command.modal.spindle_limit : 0;
     return;
   }
   if (command.kind != CommandKind::auxiliary) return;
@@ -40,7 +42,7 @@ void AuxiliaryMemory::pass(const language::Command& command) {
 
 std::vector<AuxiliaryFunction> AuxiliaryMemory::functions(bool speed, bool spindle, bool coolant) const {
   std::vector<AuxiliaryFunction> list;
-  if (speed && has_speed_) list.push_back({AuxiliaryKind::S, 0, speed_, false});
+  if (speed && has_speed_) list.push_back({AuxiliaryKind::S, 0, speed_, false, surface_, limit_, 0});
   if (spindle && has_spindle_)
     list.push_back({AuxiliaryKind::M, spindle_, has_angle_ ? angle_ : 0, has_angle_});
   if (coolant && has_coolant_) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "canonical/turning_speed.hpp"
+#include "language/arc_geometry.hpp"
 #include "machine/alarm_constants.hpp"
 #include "motion/path_segment.hpp"
 
@@ -61,6 +63,7 @@ void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, c
   place_ = position;
   tapping_ = in_hole_ = text_missing_ = behind_thread_ = false;
   set_threading(false);
+  surface_speed_used_ = initial.spindle_mode == language::SpindleMode::surface;
   executing_ = initial;
   frames_.clear();
   modals_.clear();
@@ -128,7 +131,7 @@ FlowState ProgramFlow::push_move() {
     move.modal.feed = dry_run_feed_;
     move.modal.feed_mode = language::FeedMode::per_minute;
   } else if (move.modal.feed_mode == language::FeedMode::per_revolution) {
-    move.modal.feed *= move.modal.spindle_speed;
+    move.modal.feed *= speed_of_feed(from, move);
     move.modal.feed_mode = language::FeedMode::per_minute;
   }
   // The wait before a value is read is made again.
@@ -139,6 +142,7 @@ FlowState ProgramFlow::push_move() {
     return fail(language::AlarmNumber::feed_not_positive,
                 "feed must be above zero (per revolution: with the spindle turning)");
   executing_ = command_.modal;
+  if (command_.kind == CommandKind::tap) tap_speed_ = std::max(tap_speed_, stroke_speed(command_));
   have_command_ = false;
   if (on_move) on_move(move);
   return FlowState::full;
@@ -168,6 +172,25 @@ FlowState ProgramFlow::take_leg() {
   thread_complete_ = command_.modal.path_control == language::PathControl::exact_stop ||
                      legs_.size() == ThreadPath::most_legs;
   return FlowState::full;
+}
+
+// With G96 the lowest one of the move, so that the feed per revolution is never above F.
+double ProgramFlow::speed_of_feed(const AxisValues& from, const language::Command& move) const {
+  const auto& modal = move.modal;
+  if (modal.spindle_mode != language::SpindleMode::surface) return modal.spindle_speed;
+  const auto* frame = frames_.newest();
+  const double centre = frame == nullptr ? 0 : frame->total_offset()[language::X];
+  double radius = std::max(std::abs(from[language::X] - centre), std::abs(move.target[language::X] - centre));
+  if (move.kind == CommandKind::arc) {
+    constexpr int parts = 8;
+    for (int i = 1; i < parts; ++i) {
+      const auto point = language::point_on_arc(from, move.target, move.arc, static_cast<double>(i) / parts);
+      radius = std::max(radius, std::abs(point[language::X] - centre));
+    }
+  }
+  return canonical::turning_speed(
+      modal.surface_speed, radius,
+      canonical::lower_limit(modal.spindle_limit, environment_.highest_spindle_speed()));
 }
 
 // The circle of a restart in the middle of an arc is what is left of it.
@@ -342,6 +365,15 @@ FlowState ProgramFlow::take_step(language::Step step) {
   return FlowState::waiting;
 }
 
+std::optional<double> ProgramFlow::turning_radius(std::uint32_t sequence, const AxisValues& position) const {
+  if (!surface_speed_used_) return std::nullopt;
+  const auto* modal = modals_.at(sequence);
+  if (modal == nullptr || modal->spindle_mode != language::SpindleMode::surface) return std::nullopt;
+  const auto* frame = frames_.at(sequence);
+  const double centre = frame == nullptr ? 0 : frame->total_offset()[language::X];
+  return std::abs(position[language::X] - centre);
+}
+
 // Moves to where the axes are take no time, and motion may make one point of short ones to and fro: a loop of
 // these is one without motion.
 void ProgramFlow::note_motion() {
@@ -400,16 +432,19 @@ FlowState ProgramFlow::fill(bool single_block) {
     }
     if (command_.modal.frame != frame_) frames_.add(command_.sequence, interpreter_.frame_of(command_));
     frame_ = command_.modal.frame;
+    surface_speed_used_ =
+        surface_speed_used_ || command_.modal.spindle_mode == language::SpindleMode::surface;
     if (!(*modals_.newest() == command_.modal)) modals_.add(command_.sequence, command_.modal);
     const bool stroke =
         command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
     const bool thread = command_.kind == CommandKind::thread;
     const bool coupled = thread && coupled_threads_;
+    const bool continues = coupled && command_.number == 0;
     const bool move =
         is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke || (thread && !coupled);
-    if (std::exchange(behind_thread_, false) && coupled)
+    if (std::exchange(behind_thread_, false) && continues)
       return fail_search("the line continues a thread: start before the first block of it");
-    if (threading_ && !coupled) {
+    if (threading_ && !continues && !(coupled && legs_.empty())) {
       thread_complete_ = true;
       return FlowState::full;
     }

@@ -114,7 +114,9 @@ class ProgramFlow {
   /// The pending command cannot be carried out: FlowState::alarm.
   void refuse_pending(language::AlarmNumber number);
   /// Rigid tapping has started or ended: strokes and the dwells between them are moves meanwhile.
-  void set_tapping(bool tapping) { tapping_ = tapping; }
+  void set_tapping(bool tapping) { tapping_ = tapping, tap_speed_ = 0; }
+  /// The highest speed of the spindle in the strokes that motion has got since, 1/min.
+  double tap_speed() const { return tap_speed_; }
   /// Threads follow the spindle: FlowState::command comes before one; else they are lines that motion gets.
   void set_coupled_threads(bool coupled) { coupled_threads_ = coupled; }
   /// Called at rest, with a thread pending: fill() then collects it, and those that continue it, in legs() up
@@ -162,6 +164,11 @@ class ProgramFlow {
   const FrameTrail& frames() const { return frames_; }
   /// Their modal states; behind start() or a found line that in which the program begins.
   const ModalTrail& modals() const { return modals_; }
+  /// A command since the start, or the state it began in, had a constant surface speed (G96).
+  bool surface_speed_used() const { return surface_speed_used_; }
+  /// mm from the centre of the spindle, X = 0 of the workpiece, of `position` in the command `sequence`;
+  /// nothing without G96.
+  std::optional<double> turning_radius(std::uint32_t sequence, const AxisValues& position) const;
   /// Of the newest command handed to motion.
   const language::ModalState& executing() const { return executing_; }
   /// The spindle and coolant functions of the commands that are done or were skipped.
@@ -187,6 +194,8 @@ class ProgramFlow {
   /// Empty, or the line of the axis that the pending move would take out of its travel.
   std::string travel_error(const AxisValues& from);
   FlowState push_move();
+  /// 1/min that a feed per revolution of `move` from `from` counts with.
+  double speed_of_feed(const AxisValues& from, const language::Command& move) const;
   FlowState fail_without_reference();
   /// Full: motion may have the pending move. Waiting: the guard has not finished. Else alarm.
   FlowState ask_guard(const AxisValues& from);
@@ -221,9 +230,11 @@ class ProgramFlow {
   Entry entry_;
   Search search_ = Search::none;
   bool tapping_ = false, in_hole_ = false, text_missing_ = false;
+  double tap_speed_ = 0;
   bool coupled_threads_ = false, threading_ = false, thread_complete_ = false;
   bool behind_thread_ = false;  // the line to start from may continue one
   std::vector<ThreadLeg> legs_;
+  bool surface_speed_used_ = false;
   std::uint64_t lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   AxisValues place_{};        // where the newest motion ends
   AxisValues home_target_{};  // of the newest search for references

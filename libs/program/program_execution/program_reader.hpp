@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a whole program without a cluster, for what checks, draws or plans it. Moves and alarms are those of
 // the channel, for they come from the same ProgramFlow; what the channel asks of others while the axes stand
-// is done at once: the PLC carries out every function, a skip move meets nothing, a
-// search for references ends at the reference position, the cycle of another service has no parts, and
-// spindles are homed, synchronized and without error.
+// is done at once: the PLC carries out every function, a skip move meets nothing, a search for references
+// ends at the reference position, the cycle of another service has no parts, and spindles are homed,
+// synchronized and without error.
 #pragma once
 
 #include <functional>

@@ -58,6 +58,7 @@ language::Command thread_line(language::Command thread, const AxisValues& from) 
   const double ratio = farthest > 0 ? std::sqrt(square) / farthest : 1;
   const double mean = (thread.value + last_lead(thread.value, thread.lead_change, farthest)) / 2;
   thread.kind = language::CommandKind::line;
+  thread.number = 0;
   thread.modal.feed_mode = language::FeedMode::per_minute;
   thread.modal.feed = mean * ratio * thread.modal.spindle_speed;
   return thread;

@@ -127,6 +127,7 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
 
 void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) const {
   const auto coupled = [&](const auto& batch) {
+    if (row < batch.turning_radius.size()) out.push_back({"turning_radius", batch.turning_radius[row]});
     if (row >= batch.spindle.size()) return;
     out.push_back({"spindle_axis", batch.spindle_axis});
     out.push_back({"spindle", batch.spindle[row]});

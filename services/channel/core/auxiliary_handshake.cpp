@@ -9,7 +9,8 @@
 namespace trunnion::channel {
 
 void AuxiliaryHandshake::begin(const program_execution::AuxiliaryFunction& function, std::uint64_t cycle) {
-  request_ = {channel_, ++number_, function.kind, function.code, function.value, function.has_value, cycle};
+  request_ = {channel_,           ++number_, function.kind,    function.code,  function.value,
+              function.has_value, cycle,     function.surface, function.limit, function.radius};
   outgoing_ = request_;
   open_ = true;
 }

@@ -85,7 +85,7 @@ RunningProgram ChannelCore::running_program() const {
   if (program_under_way())
     left = {selected().name, selected().revision, selected().crc32,
             std::max<std::uint32_t>(program_line(), 1)};
-  return {left, ended_, parts_, tool_, tool_since_};
+  return {left, ended_, parts_, tool_, tool_since_, tap_};
 }
 
 // What the program has read ahead counts: a variable is not restored when the motion behind it is stopped.

@@ -33,6 +33,7 @@
 #include "mdi.hpp"
 #include "program_cache.hpp"
 #include "program_execution/program_flow.hpp"
+#include "program_execution/tap_in_hole.hpp"
 #include "program_execution/tapping.hpp"
 #include "program_homing.hpp"
 #include "program_record.hpp"
@@ -84,11 +85,14 @@ class ChannelCore {
   void set_interrupted(const RunningProgram& program) {
     interrupted_ = program, ended_ = program.ended, parts_ = program.parts;
     tool_ = program.tool, tool_since_ = program.tool_since;
+    tap_ = program.tap;
   }
   /// Machined since the count was set.
   std::uint32_t parts() const { return parts_; }
   /// In the spindle.
   std::uint32_t tool() const { return tool_; }
+  /// The tap that is in its hole, or was left there.
+  const program_execution::TapInHole& tap() const { return tap_; }
   /// `collision: warn` or `stop` of machine.yaml; without it nothing is checked.
   void guard(machine::CollisionMode mode, const collision_guard::BodiesText& bodies);
   void set_programs(const idl::program::ProgramList& programs);
@@ -188,6 +192,7 @@ class ChannelCore {
     // Written where there is something: older recordings have no such state.
     constexpr bool reads = !std::is_const_v<Self>;
     if (reads || self.tool_since_ != 0) visit("tool_since", self.tool_since_);
+    if (reads || self.tap_.lead != 0) visit("tap", self.tap_);
   }
 
  private:
@@ -271,7 +276,7 @@ class ChannelCore {
   std::uint8_t role() const;
   void change_table(const language::Command& command);
   void count_part();
-  void begin_auxiliary(const program_execution::AuxiliaryFunction& function);
+  void begin_auxiliary(program_execution::AuxiliaryFunction function);
 
   void begin_cycle(const language::Command& command);
   void settle_cycle();
@@ -284,6 +289,7 @@ class ChannelCore {
   bool finish_read();
   void begin_tapping();
   void finish_tapping();
+  double tapping_override() const;
   void begin_thread();
   void cut_thread();
   StreamCycle step_thread(std::uint64_t cycle);
@@ -328,6 +334,8 @@ class ChannelCore {
   }
   bool uses_feedback() const;
   bool braking() const { return states_.feed_hold() && !tapping_.active() && !thread_.cutting(); }
+  /// The PLC has stopped spindle and axis of a tap.
+  bool tap_stopped() const { return tapping_.active() && control().tap_stop; }
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;
   AxisValues drive_position() const;
@@ -380,6 +388,7 @@ class ChannelCore {
   PathProgress progress_;
   std::uint32_t tool_ = 0;        // in the spindle
   std::uint64_t tool_since_ = 0;  // cycle from which on the drive's snapshot knows of it
+  program_execution::TapInHole tap_;
   double spindle_programmed_ = 0;
   // As they were when the program started; nothing in a process that has not started it.
   std::optional<std::uint16_t> homed_at_start_;

@@ -47,14 +47,28 @@ void ChannelCore::begin_tapping() {
     flow().refuse_pending(language::AlarmNumber::tapping_spindle_missing);
     return;
   }
-  tapping_.begin(path().position(), flow().pending());
+  const auto& stroke = flow().pending();
+  const auto from = path().machine_position(), to = path().machine_of(stroke.target);
+  if (stroke.out && tap_.contradicts(from, to, stroke.value)) {
+    flow().refuse_pending(language::AlarmNumber::tap_removal_thread);
+    return;
+  }
+  if (!stroke.out) tap_ = program_execution::TapInHole::of(stroke.value, from, to);
+  tapping_.begin(path().position(), stroke);
   path().trajectory().set_limits(tapping_.limits(manual_.path_limits(), spindle.acceleration));
   path().restart();
   flow().set_tapping(true);
 }
 
+// The override of the spindle is that of the path it is coupled to.
+double ChannelCore::tapping_override() const {
+  return Tapping::override_of(switches_.spindle_override, flow().tap_speed(),
+                              machine_.tapping_spindle(tapping_.axis()).highest_speed);
+}
+
 void ChannelCore::finish_tapping() {
   if (!tapping_.active()) return;
+  if (!(tap_.depth(path().machine_position()) > 0)) tap_ = {};
   tapping_.end();
   flow().set_tapping(false);
   path().trajectory().set_limits(manual_.path_limits());

@@ -2,7 +2,9 @@
 // What a program asks of the rest of the control while the axes are at rest: the PLC, the tables, the
 // operator, the services that carry out cycles.
 #include <algorithm>
+#include <cmath>
 
+#include "canonical/turning_speed.hpp"
 #include "channel_core.hpp"
 #include "language/codes.hpp"
 #include "machine/alarm_constants.hpp"
@@ -137,7 +139,9 @@ void ChannelCore::execute(const language::Command& command) {
       begin_auxiliary({AuxiliaryKind::T, command.number, 0, false});
       return;
     case language::CommandKind::spindle_speed:
-      begin_auxiliary({AuxiliaryKind::S, 0, command.value, false});
+      begin_auxiliary({AuxiliaryKind::S, 0, command.value, false,
+                       command.modal.spindle_mode == language::SpindleMode::surface,
+                       command.modal.spindle_limit, 0});
       return;
     case language::CommandKind::auxiliary:
       if (command.number == optional_stop && !switches_.optional_stop)
@@ -154,7 +158,13 @@ void ChannelCore::execute(const language::Command& command) {
   }
 }
 
-void ChannelCore::begin_auxiliary(const program_execution::AuxiliaryFunction& function) {
+// At standstill: until the setpoints tell it, the radius of a surface speed is that of the position.
+void ChannelCore::begin_auxiliary(program_execution::AuxiliaryFunction function) {
+  if (function.surface) {
+    const auto frame = executed_frame(executed_modal());
+    function.limit = canonical::lower_limit(function.limit, machine_.highest_spindle_speed());
+    function.radius = std::abs(path().position()[language::X] - frame.total_offset()[language::X]);
+  }
   if (function.kind == AuxiliaryKind::S) spindle_programmed_ = function.value;
   handshake_.begin(function, link().executed());
   states_.wait();

@@ -37,7 +37,9 @@ std::string ChannelCore::detail() const {
   if (cycle_call_.open()) return "waits for the measurement of the kinematics";
   if (waits_for_text()) return "waiting for the text of the program";
   if (running && preparing != nullptr && preparing->approaching) return "approaching the program";
-  if (running && states_.interpreting() &&
+  if (running && tap_stopped())
+    return "the PLC has stopped the tap: it continues when the PLC lets it; reset leaves it where it is";
+  if (running && states_.interpreting() && !tapping_.active() &&
       (executed.rapid ? switches_.rapid_override : switches_.feed_override) == 0)
     return executed.rapid ? "the rapid override is 0 %" : "the feed override is 0 %";
   if (held && states_.retracing()) return "gone back as far as the path is kept; cycle start: forwards";

@@ -124,8 +124,8 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
     setpoint.at_rest = manual_.wheel_at_rest();
   } else {
     check_exact_stop(cycle);
-    setpoint =
-        trajectory.step(tapping_.active() ? 1 : switches_.feed_override, switches_.rapid_override, braking());
+    setpoint = trajectory.step(tapping_.active() ? tapping_override() : switches_.feed_override,
+                               switches_.rapid_override, braking() || tap_stopped());
     progress_.point = {setpoint.sequence, setpoint.line, setpoint.fraction};
     if (states_.in<Running>() && states_.retracing() && trajectory.retraced_to_start()) hold();
   }
@@ -142,6 +142,9 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
     add_offset(out, by_hand ? setpoint.position : path().machine_of(setpoint.position));
   out.line = setpoint.line;
   if (tapping_.active()) out.spindle = tapping_.revolutions(setpoint.position);
+  // Moved by hand, or to the program, axes leave the spindle as it is.
+  if (states_.interpreting() && (states_.is(Activity::mdi) || on_program_path()))
+    out.radius = flow().turning_radius(setpoint.sequence, setpoint.position);
   out.stopped = setpoint.path_speed == 0;
   out.at_rest = setpoint.at_rest;
   out.holding = braking();

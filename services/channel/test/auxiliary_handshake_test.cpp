@@ -61,6 +61,18 @@ TEST(AuxiliaryHandshake, CarriesTheAngleOfM19) {
   EXPECT_EQ(handshake.function(), "M19");
 }
 
+TEST(AuxiliaryHandshake, CarriesASurfaceSpeedWithItsLimitAndTheRadius) {
+  AuxiliaryHandshake handshake(0);
+  handshake.begin({AuxiliaryKind::S, 0, 200, false, true, 3000, 40}, 7);
+  const auto raised = handshake.take_request();
+  ASSERT_TRUE(raised);
+  EXPECT_TRUE(raised->surface);
+  EXPECT_EQ(raised->value, 200);
+  EXPECT_EQ(raised->limit, 3000);
+  EXPECT_EQ(raised->radius, 40);
+  EXPECT_FALSE(raised->has_value);
+}
+
 TEST(AuxiliaryHandshake, CountsFunctionsAndContinuesBehindThoseOfTheProcessBefore) {
   AuxiliaryHandshake handshake(0);
   handshake.continue_numbers(3);

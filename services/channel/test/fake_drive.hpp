@@ -74,6 +74,7 @@ class FakeDrive {
           rows.push_back({f.setpoints.begin() + 9 * i, f.setpoints.begin() + 9 * (i + 1)});
           look_at_switch();
           spindle.push_back(f.spindle.empty() ? std::nullopt : std::optional(f.spindle[i]));
+          radius.push_back(f.turning_radius.empty() ? std::nullopt : std::optional(f.turning_radius[i]));
           feedback.commanded.insert(feedback.commanded.end(), rows.back().begin(),
                                     rows.back().begin() + static_cast<long>(position_.size()));
           for (std::size_t a = 0; a < position_.size(); ++a)
@@ -124,6 +125,7 @@ class FakeDrive {
   std::vector<std::uint32_t> lines;
   std::vector<std::optional<double>> spindle;  // of each row, when one was coupled
   std::vector<bool> follows;  // of each row: the drive goes to the place of the measured angle
+  std::vector<std::optional<double>> radius;  // of each row, with a constant surface speed
 
  private:
   // The axes follow without error: what a cycle commands is reached before the next one.

@@ -182,6 +182,13 @@ void ChannelStreams::pass(std::uint64_t next, Spindles& spindles) {
     const auto* batch = channel.window.peek();
     if (batch == nullptr) continue;
     channel.skip_move = batch->skip_move;
+    if (next >= batch->first && next < batch->first + batch->count) {
+      auto& speeds = spindles.surface_speeds();
+      if (batch->turning_radius.empty())
+        speeds.pass(number);
+      else
+        speeds.turn_at(number, batch->turning_radius[next - batch->first]);
+    }
     if (const double* values = channel.row(next); values != nullptr && channel.thread.active())
       channel.thread.keep(next, {values, batch->axes.size()}, channel.thread_angle(next));
     if (next + 1 != batch->first + batch->count) continue;

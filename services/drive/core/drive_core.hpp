@@ -61,6 +61,10 @@ class DriveCore {
   void request(const idl::stream::StreamRequest& request);
   void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);
   void set_spindle_speed(const std::vector<double>& speed) { spindles_.demand_speeds(speed); }
+  /// Spindles with a constant surface speed in place of that: all that the PLC orders now.
+  void set_surface_speeds(const std::vector<idl::plc::SurfaceSpeed>& speeds) {
+    spindles_.demand_surface_speeds(speeds);
+  }
   /// Spindles that turn to their orientation angle and are held there; not while they are coupled. `angle`
   /// deg: below 0 or missing = that of the parameters.
   void set_spindle_orientation(const std::vector<std::uint8_t>& orient,

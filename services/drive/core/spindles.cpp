@@ -21,6 +21,7 @@ void Spindles::configure(const machine::Parameters& parameters, double period) {
   ramps_.resize(axes_.size());
   gears_.resize(axes_.size());
   windows_.resize(axes_.size());
+  surface_.configure(axes_.size());
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const auto number = axes_[i].number;
     orientations_[i].configure(orientation_settings(parameters, number), period);
@@ -65,7 +66,7 @@ void Spindles::lead_on(double cycles) {
 }
 
 double Spindles::commanded_speed(std::size_t i) const {
-  return gears_[i].limited(couplings_[i].setpoint().speed);
+  return gears_[i].limited(surface_.follows(i) ? surface_.speed(i) : couplings_[i].setpoint().speed);
 }
 
 void Spindles::step(const std::vector<SpindleStatus>& status, bool controlled,

@@ -16,6 +16,7 @@
 #include "spindle_gear.hpp"
 #include "spindle_orientation.hpp"
 #include "spindle_ramp.hpp"
+#include "surface_speeds.hpp"
 #include "synchronized_spindles.hpp"
 
 namespace trunnion::drive {
@@ -30,6 +31,9 @@ class Spindles {
 
   /// 1/min; 0 for those that `speed` does not have.
   void demand_speeds(const std::vector<double>& speed);
+  /// Spindles with a constant surface speed in place of that: all that the PLC orders now.
+  void demand_surface_speeds(const std::vector<idl::plc::SurfaceSpeed>& speeds) { surface_.demand(speeds); }
+  SurfaceSpeeds& surface_speeds() { return surface_; }
   /// Spindles that are to be oriented; not while they are coupled. `angle` deg: below 0, or of those that it
   /// does not have, that of the parameters.
   void demand_orientations(const std::vector<std::uint8_t>& orient, const std::vector<double>& angle = {});
@@ -76,6 +80,7 @@ class Spindles {
                                               [](const auto& gear) { return gear.engaged() != 0; }))
       visit("gears", self.gears_);
     if (!std::is_const_v<Self> || self.synchronized_.any()) visit("synchronization", self.synchronized_);
+    if (!std::is_const_v<Self> || self.surface_.any()) visit("surface", self.surface_);
   }
 
  private:
@@ -91,6 +96,7 @@ class Spindles {
   std::vector<SpindleRamp> ramps_;
   std::vector<SpindleGear> gears_;
   SynchronizedSpindles synchronized_;
+  SurfaceSpeeds surface_;
   std::vector<double> windows_;  // share of the commanded speed
   double period_ = 0.001;
 };

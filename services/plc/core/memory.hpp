@@ -47,7 +47,8 @@ struct Handshake {
   double value = 0;
   std::uint64_t cycle = 0;
   std::uint32_t failed = 0;
-  std::uint32_t has_value = 0;  ///< 1: an M with an angle. Older files have nothing at its place
+  std::uint32_t has_value = 0;  ///< 1: an M with an angle, an S that is a surface speed. Older files have
+                                ///< nothing at its place
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -150,6 +151,21 @@ struct Memory {
 };
 static_assert(std::is_trivially_copyable_v<Memory>);
 
+/// A constant surface speed of a spindle.
+struct SurfaceOrder {
+  double speed = 0;          ///< m/min, signed; 0: none
+  double limit = 0;          ///< 1/min
+  double radius = 0;         ///< mm
+  std::uint8_t channel = 0;  ///< whose X it follows
+  bool operator==(const SurfaceOrder&) const = default;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("speed", self.speed), visit("limit", self.limit), visit("radius", self.radius);
+    visit("channel", self.channel);
+  }
+};
+
 /// The received state of the machine, which is not retained: a restarted process receives it again.
 struct View {
   struct Channel {
@@ -180,6 +196,9 @@ struct View {
     std::int32_t orientation = -1;     ///< 0.01 deg, that was ordered last; -1: 10a945
     std::int32_t coupling_angle = 0;   ///< 0.01 deg
     std::uint64_t coupling_since = 0;  ///< PLC time in ms at which the coupling was ordered
+    SurfaceOrder surface;              ///< in place of a speed
+    bool new_surface = false;          ///< what the drive says may be of the speed of before
+    bool surface_reached = false;      ///< the drive has the surface speed
     bool operator==(const Spindle&) const = default;
 
     template <class Self, class Visit>
@@ -188,6 +207,10 @@ struct View {
       visit("releases", self.releases), visit("new_angle", self.new_angle), visit("reverse", self.reverse);
       visit("master", self.master), visit("orientation", self.orientation);
       visit("coupling_angle", self.coupling_angle), visit("coupling_since", self.coupling_since);
+      if (!std::is_const_v<Self> || self.surface != SurfaceOrder{}) {
+        visit("surface", self.surface), visit("new_surface", self.new_surface);
+        visit("surface_reached", self.surface_reached);
+      }
     }
   };
   std::array<Channel, channel_count> channels{};

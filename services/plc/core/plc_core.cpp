@@ -41,7 +41,8 @@ PlcCore::PlcCore() {
         of("t_strobe"),        of("e_strobe"),      of("m_code"),         of("m_angle"),
         of("s_value"),         of("t_code"),        of("e_order"),        of("e_spindle"),
         of("e_value"),         of("feed_override"), of("rapid_override"), of("spindle_override"),
-        of("active_tool"),     of("fin"),           of("fin_failed")};
+        of("active_tool"),     of("fin"),           of("fin_failed"),     of("s_surface_speed"),
+        of("s_limit"),         of("s_radius")};
     for (const auto address : {channel_symbols_[c].feed_override, channel_symbols_[c].rapid_override,
                                channel_symbols_[c].spindle_override})
       store(memory_.registers, address, 100);  // until the channel publishes its values
@@ -183,8 +184,21 @@ void PlcCore::set_request(const idl::channel::AuxiliaryRequest& request) {
     return;
   }
   const bool has_angle = request.kind == AuxiliaryKind::M && request.has_value;
-  h = {HandshakeState::waiting, request.number, request.kind, request.code, request.value, request.cycle, 0,
-       has_angle ? 1u : 0u};
+  const bool surface = request.kind == AuxiliaryKind::S && request.surface;
+  h = {HandshakeState::waiting,
+       request.number,
+       request.kind,
+       request.code,
+       request.value,
+       request.cycle,
+       0,
+       has_angle || surface ? 1u : 0u};
+  // Not with the strobe: the handshake, which older files have, has no place for them.
+  if (surface) {
+    const auto& s = channel_symbols_[request.channel];
+    store(memory_.registers, s.s_limit, std::llround(std::floor(std::clamp(request.limit, 0.0, 65535.0))));
+    store(memory_.registers, s.s_radius, std::llround(std::clamp(request.radius * 10, 0.0, 65535.0)));
+  }
   view_.stopped_waiting = false;
   view_.changed = true;
 }
@@ -251,7 +265,11 @@ void PlcCore::set_strobes(bool present) {
         store(r, s.m_code, h.code);
         store(r, s.m_angle, h.has_value != 0 ? hundredths(h.value) : no_angle);
       }
-      if (h.kind == AuxiliaryKind::S) store(r, s.s_value, std::llround(std::clamp(h.value, 0.0, 65535.0)));
+      if (h.kind == AuxiliaryKind::S) {
+        const double surface = h.has_value != 0 ? std::clamp(h.value * 10, 1.0, 65535.0) : 0;
+        store(r, s.s_value, std::llround(std::clamp(h.value, 0.0, 65535.0)));
+        store(r, s.s_surface_speed, std::llround(surface));
+      }
       if (h.kind == AuxiliaryKind::T) store(r, s.t_code, h.code);
       if (h.kind == AuxiliaryKind::E) {
         const auto order = spindle_order(h.code, h.value);

@@ -129,15 +129,16 @@ class PlcCore {
     Address m_strobe, s_strobe, t_strobe, e_strobe, m_code, m_angle, s_value, t_code;
     Address e_order, e_spindle, e_value;
     Address feed_override, rapid_override, spindle_override, tool, fin, fin_failed;
+    Address s_surface_speed, s_limit, s_radius;
   };
   struct ControlSymbols {
     Address start_inhibit, manual_inhibit, sets_overrides, feed_override, rapid_override, spindle_override;
-    Address refused, alarm;
+    Address refused, alarm, tap_stop;
   };
   struct SpindleSymbols {
     Address at_speed, actual, oriented, homed, synchronized, position;
     Address speed, enable, counterclockwise, orient, orient_by_angle, orient_angle;
-    Address gear, master, master_angle, reverse, integral;
+    Address gear, master, master_angle, reverse, integral, surface_speed, surface_channel;
   };
   void input(Address address, std::int64_t value);
   void press_emergency_stop(const View::Press& press);
@@ -160,6 +161,8 @@ class PlcCore {
   void check_spindles();
   bool check_orientation(std::size_t spindle);
   void check_coupling(std::size_t spindle);
+  SurfaceOrder ordered_surface_speed(std::size_t spindle) const;
+  void check_surface_speed(std::size_t spindle, bool on);
   std::int32_t ordered_orientation(std::size_t spindle) const;
   std::uint8_t ordered_master(std::size_t spindle) const;
   bool follows(std::size_t spindle) const;

@@ -13,9 +13,9 @@ using idl::stream::SpindleCondition;
 
 constexpr double slowest_tolerance = 5;           // 1/min, for low speeds and standstill
 constexpr std::uint64_t spindle_timeout = 30000;  // ms for which virtual time continues for a spindle
-constexpr std::uint64_t coupling_delay = 100;     // ms in which the drive has taken another coupling
-constexpr std::size_t most_couplings = 7;         // idl/plc.idl
-constexpr std::int32_t whole_turn = 36000;        // 0.01 deg
+constexpr std::uint64_t coupling_delay = 100;  // ms in which the drive has taken another coupling or radius
+constexpr std::size_t most_couplings = 7;      // idl/plc.idl
+constexpr std::int32_t whole_turn = 36000;     // 0.01 deg
 
 }  // namespace
 
@@ -45,12 +45,13 @@ void PlcCore::find_spindles() {
   for (std::size_t s = 0; s < spindle_count; ++s) {
     const auto of = [s](const char* text) { return interface_address(text, s); };
     spindle_symbols_[s] = {
-        of("spindle_at_speed"), of("spindle_actual"),          of("spindle_oriented"),
-        of("spindle_homed"),    of("spindle_synchronized"),    of("spindle_position"),
-        of("spindle_speed"),    of("spindle_enable"),          of("spindle_counterclockwise"),
-        of("spindle_orient"),   of("spindle_orient_by_angle"), of("spindle_orient_angle"),
-        of("spindle_gear"),     of("spindle_master"),          of("spindle_master_angle"),
-        of("spindle_reverse"),  of("spindle_integral")};
+        of("spindle_at_speed"),       of("spindle_actual"),          of("spindle_oriented"),
+        of("spindle_homed"),          of("spindle_synchronized"),    of("spindle_position"),
+        of("spindle_speed"),          of("spindle_enable"),          of("spindle_counterclockwise"),
+        of("spindle_orient"),         of("spindle_orient_by_angle"), of("spindle_orient_angle"),
+        of("spindle_gear"),           of("spindle_master"),          of("spindle_master_angle"),
+        of("spindle_reverse"),        of("spindle_integral"),        of("spindle_surface_speed"),
+        of("spindle_surface_channel")};
   }
 }
 
@@ -75,6 +76,10 @@ void PlcCore::take_spindles(const idl::stream::Feedback& feedback) {
     spindle.new_angle =
         spindle.new_angle && synchronized && memory_.scans - spindle.coupling_since < coupling_delay;
     spindle.synchronized = synchronized && !spindle.new_angle;
+    const bool reached = state != nullptr && state->condition == SpindleCondition::SPINDLE_AT_SPEED;
+    spindle.new_surface =
+        spindle.new_surface && reached && memory_.scans - memory_.spindle_since[s] < coupling_delay;
+    spindle.surface_reached = spindle.surface.speed != 0 && reached && !spindle.new_surface;
     spindle.homed = state != nullptr && state->homed;
     if (s >= std::min(spindles_, received)) continue;
     const auto& symbols = spindle_symbols_[s];
@@ -107,6 +112,7 @@ bool PlcCore::at_speed(std::size_t s) const {
   if (s >= spindles_) return true;
   if (s >= view_.spindles_received) return view_.drive_seen;
   if (follows(s)) return view_.spindles[s].synchronized;
+  if (view_.spindles[s].surface.speed != 0) return view_.spindles[s].surface_reached;
   const double command = memory_.spindle_command[s];
   return std::abs(view_.spindle_actual[s] - command) <=
          std::max(speed_window_[s] * std::abs(command), slowest_tolerance);
@@ -144,6 +150,27 @@ void PlcCore::check_coupling(std::size_t s) {
   spindle.synchronized = false;
 }
 
+SurfaceOrder PlcCore::ordered_surface_speed(std::size_t s) const {
+  const auto& r = memory_.registers;
+  const auto& symbols = spindle_symbols_[s];
+  const double speed = plc::load(r, symbols.surface_speed) / 10.0;
+  const auto channel = static_cast<std::size_t>(plc::load(r, symbols.surface_channel));
+  if (speed == 0 || s >= spindles_ || channel >= channel_count) return {};
+  const bool reverse = plc::load(r, symbols.counterclockwise) != 0;
+  return {reverse ? -speed : speed, static_cast<double>(plc::load(r, channel_symbols_[channel].s_limit)),
+          plc::load(r, channel_symbols_[channel].s_radius) / 10.0, static_cast<std::uint8_t>(channel)};
+}
+
+void PlcCore::check_surface_speed(std::size_t s, bool on) {
+  auto& spindle = view_.spindles[s];
+  const auto order = on ? ordered_surface_speed(s) : SurfaceOrder{};
+  if (order == spindle.surface) return;
+  spindle.surface = order;
+  spindle.new_surface = order.speed != 0;
+  spindle.surface_reached = false;
+  memory_.spindle_since[s] = memory_.scans;
+}
+
 void PlcCore::check_spindles() {
   auto& r = memory_.registers;
   for (std::size_t s = 0; s < spindle_count; ++s) {
@@ -151,7 +178,8 @@ void PlcCore::check_spindles() {
     const bool orients = check_orientation(s);
     check_coupling(s);
     const bool on = plc::load(r, symbols.enable) != 0 && !orients && !emergency_stop();
-    const double speed = on ? plc::load(r, symbols.speed) : 0;
+    check_surface_speed(s, on);
+    const double speed = on && view_.spindles[s].surface.speed == 0 ? plc::load(r, symbols.speed) : 0;
     const double command = plc::load(r, symbols.counterclockwise) != 0 && speed > 0 ? -speed : speed;
     if (command != memory_.spindle_command[s]) {
       memory_.spindle_command[s] = command;
@@ -191,6 +219,15 @@ void PlcCore::set_spindles(idl::plc::Outputs& outputs) const {
           view_.orients[s] && spindle.orientation >= 0 ? spindle.orientation / 100.0 : -1.0);
     if (geared)
       outputs.spindle_gear.push_back(static_cast<std::uint8_t>(std::min(plc::load(r, symbols.gear), 255)));
+    if (spindle.surface.speed != 0 && !outputs.emergency_stop) {
+      idl::plc::SurfaceSpeed surface;
+      surface.spindle = static_cast<std::uint8_t>(s);
+      surface.channel = spindle.surface.channel;
+      surface.speed = spindle.surface.speed;
+      surface.limit = spindle.surface.limit;
+      surface.radius = spindle.surface.radius;
+      outputs.surface_speeds.push_back(surface);
+    }
     if (!follows(s) || outputs.spindle_couplings.size() == most_couplings) continue;
     using idl::plc::IntegralAction;
     const auto integral = plc::load(r, symbols.integral);

@@ -74,6 +74,9 @@ std::uint64_t state_digest(const PlcState& state) {
     digest.add(spindle.homed), digest.add(spindle.synchronized), digest.add(spindle.releases);
     digest.add(spindle.new_angle), digest.add(spindle.reverse), digest.add(spindle.master);
     digest.add(spindle.orientation), digest.add(spindle.coupling_angle), digest.add(spindle.coupling_since);
+    const auto& surface = spindle.surface;
+    digest.add(surface.speed), digest.add(surface.limit), digest.add(surface.radius);
+    digest.add(surface.channel), digest.add(spindle.new_surface), digest.add(spindle.surface_reached);
   }
   digest.add(view.spindles_received), digest.add(view.executed), digest.add(view.drive_seen);
   digest.add(view.stopped_waiting), digest.add(view.changed);

@@ -77,6 +77,12 @@ struct Bench {
     core.set_request({0, number, AuxiliaryKind::M, code, angle, true, executed});
     step();
   }
+  /// S with G96: m/min, 1/min, mm.
+  void request_surface(double speed, double limit, double radius) {
+    ++number;
+    core.set_request({0, number, AuxiliaryKind::S, 0, speed, false, executed, true, limit, radius});
+    step();
+  }
   std::uint16_t g(const char* name, std::size_t index) const {
     return core.memory().registers.g[interface_address(name, index).index];
   }

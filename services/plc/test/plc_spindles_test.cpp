@@ -73,6 +73,70 @@ TEST(Spindles, ARestartedProcessKeepsTheAngleThatIsHeld) {
   EXPECT_EQ(again.core.outputs().spindle_angle, (std::vector<double>{90, -1}));
 }
 
+// What the drive says counts once it has said something else, or after 100 ms.
+TEST(Spindles, ASurfaceSpeedIsInTheOutputsInPlaceOfASpeedWhileTheSpindleTurns) {
+  Bench bench;
+  bench.spindles.resize(2);
+  bench.request_surface(200.04, 3000, 40.02);
+  bench.run();
+  EXPECT_TRUE(bench.done()) << "it stands";
+  EXPECT_EQ(value_of(bench, "s_value", 0), 200);
+  EXPECT_EQ(value_of(bench, "s_surface_speed", 0), 2000);
+  EXPECT_EQ(value_of(bench, "s_limit", 0), 3000);
+  EXPECT_EQ(value_of(bench, "s_radius", 0), 400);
+  EXPECT_TRUE(bench.core.outputs().surface_speeds.empty());
+
+  bench.request(AuxiliaryKind::M, 3);
+  auto outputs = bench.core.outputs();
+  ASSERT_EQ(outputs.surface_speeds.size(), 1u);
+  EXPECT_EQ(outputs.surface_speeds[0].spindle, 0);
+  EXPECT_EQ(outputs.surface_speeds[0].channel, 0);
+  EXPECT_EQ(outputs.surface_speeds[0].speed, 200);
+  EXPECT_EQ(outputs.surface_speeds[0].limit, 3000);
+  EXPECT_EQ(outputs.surface_speeds[0].radius, 40);
+  EXPECT_EQ(outputs.spindle_speed, (std::vector<double>{0, 0}));
+  bench.spindles[0].condition = SpindleCondition::SPINDLE_AT_SPEED;
+  bench.feedback();
+  EXPECT_FALSE(bench.done()) << "it may be the speed of before";
+  bench.spindles[0].condition = SpindleCondition::SPINDLE_ACCELERATING;
+  bench.feedback();
+  EXPECT_FALSE(bench.done());
+  bench.spindles[0].condition = SpindleCondition::SPINDLE_AT_SPEED;
+  bench.run();
+  EXPECT_TRUE(bench.done());
+
+  bench.request(AuxiliaryKind::M, 4);
+  EXPECT_EQ(bench.core.outputs().surface_speeds.at(0).speed, -200);
+  bench.run();
+  EXPECT_TRUE(bench.done()) << "after 100 ms";
+  idl::channel::ChannelState state;
+  state.spindle_override = 1.2, state.feed_override = 1, state.rapid_override = 1;
+  bench.core.set_channel(state);
+  bench.step();
+  EXPECT_EQ(bench.core.outputs().surface_speeds.at(0).speed, -240) << "with the override";
+  EXPECT_EQ(bench.core.outputs().surface_speeds.at(0).limit, 3000) << "without it";
+
+  bench.request(AuxiliaryKind::S, 0, 500);
+  outputs = bench.core.outputs();
+  EXPECT_TRUE(outputs.surface_speeds.empty());
+  EXPECT_EQ(outputs.spindle_speed[0], -600);
+}
+
+// Spindle 1 follows X of channel 1: `spindle_surface_channel_1` of the main task.
+TEST(Spindles, ASurfaceSpeedBelongsToTheChannelThatIsNamed) {
+  Bench bench;
+  write(bench, "spindle_surface_speed", 1, 1500);
+  write(bench, "spindle_enable", 1, 1);
+  const auto outputs = bench.core.outputs();
+  ASSERT_EQ(outputs.surface_speeds.size(), 1u);
+  EXPECT_EQ(outputs.surface_speeds[0].spindle, 1);
+  EXPECT_EQ(outputs.surface_speeds[0].channel, 1);
+  EXPECT_EQ(outputs.surface_speeds[0].speed, 150);
+  EXPECT_EQ(outputs.surface_speeds[0].limit, 0) << "no S has told one";
+  write(bench, "spindle_surface_channel", 1, 8);
+  EXPECT_TRUE(bench.core.outputs().surface_speeds.empty()) << "there is no channel 8";
+}
+
 TEST(Spindles, AGearIsInTheOutputsWhileOneIsEngaged) {
   Bench bench;
   write(bench, "spindle_gear", 1, 2);

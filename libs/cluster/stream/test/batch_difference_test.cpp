@@ -77,6 +77,10 @@ TEST(BatchDifference, ShapeCounts) {
   EXPECT_FALSE(same_values(batch(), other));
   EXPECT_THAT(difference(batch(), other)->text, HasSubstr("follows spindle: 0 and 1"));
   other = batch();
+  other.turning_radius = {40};
+  EXPECT_FALSE(same_values(batch(), other));
+  EXPECT_THAT(difference(batch(), other)->text, HasSubstr("length of turning radius: 0 and 1"));
+  other = batch();
   other.ends = true;
   EXPECT_THAT(difference(batch(), other)->text, HasSubstr("ends: 0 and 1"));
 }

@@ -50,6 +50,8 @@ TEST(Orientation, ROrPOfM19IsItsAngleWithinATurn) {
   EXPECT_EQ(stream(run(machine, "G20 M19\nM19 R12.5\n")), (Lines{"M19", "M19 at 12.5", "end 0"}))
       << "an angle has no inches";
   EXPECT_EQ(stream(run(machine, "G2 X10 Y0 R5 F100\nM19 R30\n"))[1], "M19 at 30") << "it is no radius";
+  EXPECT_EQ(stream(run(machine, "M19 R90 M0\nM19 P45 M30\n")),
+            (Lines{"M19 at 90", "M0", "M19 at 45", "end 30"}));
   EXPECT_EQ(stream(run(machine, "M19 R360.5\n")), (Lines{"alarm 1106 1:5"}));
 }
 

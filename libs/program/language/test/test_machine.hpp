@@ -300,6 +300,7 @@ inline std::string brief(const Command& command) {
       values();
       text += " lead" + number(command.value);
       if (command.number != 0) text += " axis" + std::to_string(command.number);
+      if (command.spindle_speed != 0) text += " S" + number(command.spindle_speed);
       break;
     case CommandKind::thread:
       values();

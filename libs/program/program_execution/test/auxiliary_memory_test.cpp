@@ -26,6 +26,24 @@ Codes codes(const std::vector<AuxiliaryFunction>& functions) {
   return list;
 }
 
+TEST(AuxiliaryMemory, KeepsTheSurfaceSpeedWithItsLimit) {
+  AuxiliaryMemory memory;
+  Command speed;
+  speed.kind = CommandKind::spindle_speed;
+  speed.value = 200;
+  speed.modal.spindle_mode = language::SpindleMode::surface;
+  speed.modal.spindle_limit = 3000;
+  memory.pass(speed);
+  EXPECT_TRUE(memory.functions().at(0).surface);
+  EXPECT_EQ(memory.functions().at(0).value, 200);
+  EXPECT_EQ(memory.functions().at(0).limit, 3000);
+  speed.value = 795;
+  speed.modal.spindle_mode = language::SpindleMode::speed;
+  memory.pass(speed);
+  EXPECT_FALSE(memory.functions().at(0).surface);
+  EXPECT_EQ(memory.functions().at(0).limit, 0);
+}
+
 TEST(AuxiliaryMemory, GivesTheFunctionsThatAddUpToTheStateInOneSequence) {
   AuxiliaryMemory memory;
   for (const auto m : {8u, 3u, 7u, 4u, 50u}) memory.pass(auxiliary(m));

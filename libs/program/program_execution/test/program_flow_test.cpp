@@ -283,6 +283,30 @@ TEST_F(Flow, AFeedPerRevolutionNeedsATurningSpindle) {
   EXPECT_EQ(flow.alarm_number(), 0u);
 }
 
+// 200 m/min are 795.77 1/min at 40 mm, 875.35 1/min at 40 / 1.1 mm and at most 3000 1/min. The half circle
+// from Z 0 to Z -20 has its largest X in the middle, 30 mm: 1061.03 1/min.
+TEST_F(Flow, AFeedPerRevolutionWithG96IsThatOfTheSpeedAtTheLargestRadius) {
+  start("G90 G95 F0.1\nG92 S3000\nG96 S200\nG0 X40\nG1 Z-1\nX0\nG0 X20 Z0\nG18 G3 X20 Z-20 K-10\n");
+  ASSERT_EQ(run(), FlowState::command);
+  EXPECT_EQ(flow.pending().kind, CommandKind::spindle_speed);
+  flow.finish_pending();
+  ASSERT_EQ(run(), FlowState::end) << flow.alarm_text();
+  ASSERT_GT(moves.size(), 6u);
+  EXPECT_NEAR(moves[1].modal.feed, 79.577, 1e-3) << "Z at X 40";
+  EXPECT_NEAR(moves[2].modal.feed, 79.577, 1e-3);
+  EXPECT_NEAR(moves[3].modal.feed, 87.535, 1e-3) << "the second piece";
+  EXPECT_NEAR(moves[16].modal.feed, 300, 1e-9) << "from 10.61 mm to the centre";
+  EXPECT_EQ(moves[16].target[language::X], 0);
+  EXPECT_NEAR(moves.back().modal.feed, 106.103, 1e-3) << "the half circle";
+  EXPECT_NEAR(flow.turning_radius(moves[2].sequence, {25}).value(), 25, 1e-12);
+  start("G90 G95 F0.1 S500\nG1 X10\n");
+  ASSERT_EQ(run(), FlowState::command);
+  flow.finish_pending();
+  ASSERT_EQ(run(), FlowState::end);
+  EXPECT_EQ(moves[0].modal.feed, 50);
+  EXPECT_FALSE(flow.turning_radius(moves[0].sequence, {25}));
+}
+
 TEST_F(Flow, ARefusedCommandIsAnAlarmFromThenOn) {
   start("G90 F6000\nM8\nG1 X20\n");
   ASSERT_EQ(run(), FlowState::command);
@@ -407,6 +431,36 @@ TEST_F(Flow, AStartFromALineBehindASearchTakesTheReferencePositions) {
   EXPECT_EQ(flow.skips().size(), 1u) << "a restart reads it again";
 }
 
+// The manual's example for one group on a machine with X Y Z: C is left out.
+TEST_F(Flow, ThePrintedHomingProgramOfNumSearchesAxisByAxis) {
+  auto parameters = axes();
+  parameters.values[40959] = {1, ""};  // NUM
+  machine.configure(parameters);
+  flow.set_without_reference("X, Y, Z");
+  start(
+      "$9990\nIF [.RG80] = 159 THEN (called by G159)\n   G77 H9990.9\n\nELSE (called in homing mode)\n   "
+      "L0=2 F2000 G77 H9990.9 (axis Z)\n   L0=0 F3000 G77 H9990.9 (axis X)\n   L0=1 G77 H9990.9 (axis Y)\n"
+      "   L0=8 F10000 G77 H9990.9 (axis C)\nM2\n");
+  ASSERT_EQ(run(), FlowState::command);
+  ASSERT_EQ(flow.pending().kind, CommandKind::message);
+  flow.finish_pending();
+  struct SearchOfAxis {
+    std::uint32_t bit, line;
+    double speed;
+  };
+  for (const auto& search : {SearchOfAxis{4, 6, 2000}, SearchOfAxis{1, 7, 3000}, SearchOfAxis{2, 8, 3000}}) {
+    ASSERT_EQ(run(), FlowState::command);
+    ASSERT_EQ(flow.pending().kind, CommandKind::home);
+    EXPECT_EQ(flow.pending().number, search.bit);
+    EXPECT_EQ(flow.pending().line, search.line);
+    EXPECT_EQ(flow.pending().value, search.speed);
+    flow.home_ended({});
+  }
+  ASSERT_EQ(run(), FlowState::command);
+  EXPECT_EQ(flow.pending().kind, CommandKind::end);
+  EXPECT_TRUE(moves.empty());
+}
+
 TEST_F(Flow, WithoutReferencesNothingMovesButFunctionsAndTheSearchDo) {
   flow.set_without_reference("Y, Z");
   start("M8\nG28.2 Y0 Z0\nG0 X1\n");
@@ -474,6 +528,7 @@ TEST_F(Flow, ATapIsAMoveOnlyWhileTappingAndCannotBeRestartedInTheThread) {
   EXPECT_EQ(moves.back().kind, CommandKind::line);
   EXPECT_EQ(moves.back().modal.path_control, language::PathControl::exact_stop);
   EXPECT_NEAR(moves.back().modal.feed, 500, 1e-9) << "lead 1.25 mm at 400 1/min";
+  EXPECT_EQ(flow.tap_speed(), 400);
   Entry entry;
   entry.restart = {tap.sequence, 0.5, {}};
   start(program, entry);
@@ -558,6 +613,51 @@ TEST_F(ThreadFlow, AnExactStopAndAnotherCommandEndAThread) {
       flow.finish_pending();
       run();
     }
+  }
+}
+
+/// The same with the NUM dialect.
+struct NumThreadFlow : ThreadFlow {
+  NumThreadFlow() {
+    auto parameters = axes();
+    parameters.values[103000] = {0, "S"}, parameters.values[103001] = {10, ""};
+    parameters.values[40959] = {1, ""};
+    machine.configure(parameters);
+    flow.set_coupled_threads(true);
+  }
+};
+
+// From Z-5 the taught place is 2 revolutions ahead: 90 deg.
+const std::string num_threads = "M3 S100\nG38 K2 Z-5\nG38+ J-4 EC90 K2 Z-9\nZ-12\nG33 Z-14 K2\nX20\nM2\n";
+
+TEST_F(NumThreadFlow, AResumedThreadIsNotOneWithTheThreadBeforeIt) {
+  reach_thread(num_threads);
+  const std::vector<std::vector<double>> threads = {{-5}, {-9, -12}, {-14}};
+  for (std::size_t k = 0; k < threads.size(); ++k) {
+    ASSERT_EQ(flow.pending().kind, CommandKind::thread);
+    flow.set_threading(true);
+    EXPECT_EQ(flow.fill(false), FlowState::full);
+    ASSERT_EQ(flow.legs().size(), threads[k].size());
+    for (std::size_t i = 0; i < threads[k].size(); ++i)
+      EXPECT_EQ(flow.legs()[i].target[language::Z], threads[k][i]);
+    EXPECT_EQ(flow.legs()[0].start_angle, k == 1 ? 90 : 0);
+    trajectory->start(flow.legs().back().target, language::Transformation::none, 0);
+    flow.set_threading(false);
+    ASSERT_EQ(run(), FlowState::command);
+  }
+  // Behind G33 G38 is active again: X20 is a thread of its own.
+  EXPECT_EQ(flow.pending().kind, CommandKind::thread);
+  EXPECT_EQ(flow.pending().target[language::X], 20);
+}
+
+TEST_F(NumThreadFlow, AProgramMayBeginWithAResumedThreadButNotBehindItsFirstBlock) {
+  for (const std::uint32_t line : {3u, 4u, 5u}) {
+    Entry entry;
+    entry.line = line;
+    start(num_threads, entry);
+    ASSERT_EQ(run(), FlowState::found);
+    trajectory->start(flow.position(), language::Transformation::none, 0);
+    EXPECT_EQ(run(), line == 4 ? FlowState::alarm : FlowState::command) << line;
   }
 }
 

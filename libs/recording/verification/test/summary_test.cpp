@@ -234,5 +234,14 @@ TEST(Csv, HasTheSetpointOfACoupledSpindle) {
   EXPECT_TRUE(thread[0].ends_with(",spindle_axis,spindle,follows_spindle,time_utc")) << thread[0];
 }
 
+TEST(Csv, HasTheRadiusAtWhichAProgramTurns) {
+  auto turning = path_batch(0, true, false);
+  turning.turning_radius.assign(batch_cycles, 40.5);
+  const auto lines = csv_lines(stored(topics::path_batch, turning, 7));
+  ASSERT_EQ(lines.size(), 1 + std::size_t{batch_cycles});
+  EXPECT_TRUE(lines[0].ends_with(",setpoint.W,turning_radius,time_utc")) << lines[0];
+  EXPECT_TRUE(lines[1].ends_with(",40.5,1970-01-01T00:00:00.000000007Z")) << lines[1];
+}
+
 }  // namespace
 }  // namespace trunnion::verification
