@@ -190,24 +190,46 @@ void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
 // The dialect counts four spindles: E90310 is the first one's window, E90311 the second one's.
 void ChannelSetup::find_external_parameters(const machine::Parameters& p) {
   constexpr std::uint32_t most_spindles = 4;
-  constexpr double parts_per_degree = 65536.0 / 360;
+  constexpr double parts_per_degree = 65536.0 / 360, thousandths = 1000;
   external_parameters_.clear();
   std::uint32_t b = 0;
   for (const auto& spindle : machine::spindles(p)) {
     if (b == most_spindles) break;
-    const auto a = spindle.number;
-    external_parameters_[90310 + b] = p.get(parameter::synchronization_window, a) * parts_per_degree;
-    external_parameters_[90320 + b] = p.get(parameter::synchronization_gain, a);
-    external_parameters_[90330 + b] = p.get(parameter::maximum_acceleration, a);
-    external_parameters_[90370 + b] = p.get(parameter::base_speed, a);
-    external_parameters_[90380 + b] = p.get(parameter::power_speed, a);
+    const auto of = [&](const machine::NumericParameter& parameter, double scale = 1) {
+      return ExternalParameter{p.get(parameter, spindle.number) * scale, parameter.number(spindle.number),
+                               scale, 0};
+    };
+    external_parameters_[90310 + b] = of(parameter::synchronization_window, parts_per_degree);
+    external_parameters_[90320 + b] = of(parameter::synchronization_gain);
+    external_parameters_[90330 + b] = of(parameter::maximum_acceleration);
+    auto lead = of(parameter::synchronization_phase_lead, thousandths);
+    const auto& by_speed = parameter::speed_dependent_acceleration;
+    lead.further = by_speed.number(spindle.number);
+    if (!(lead.value > 0)) lead.value = p.integer(by_speed, spindle.number);
+    external_parameters_[90360 + b] = lead;
+    external_parameters_[90370 + b] = of(parameter::base_speed);
+    external_parameters_[90380 + b] = of(parameter::power_speed);
+    external_parameters_[98024 + b] = of(parameter::synchronization_integral_time);
     ++b;
   }
 }
 
 std::optional<double> ChannelSetup::external_parameter(std::uint32_t number) const {
   const auto found = external_parameters_.find(number);
-  return found == external_parameters_.end() ? std::nullopt : std::optional(found->second);
+  return found == external_parameters_.end() ? std::nullopt : std::optional(found->second.value);
+}
+
+// Above 0 ACCKFNB switches the acceleration by speed on, which acts on a master, above 1 the phase lead,
+// which acts on a slave: which of the two a spindle will be is not known yet.
+language::ParameterChanges ChannelSetup::external_changes(std::uint32_t number, double value) const {
+  const auto found = external_parameters_.find(number);
+  if (found == external_parameters_.end()) return {};
+  const auto& parameter = found->second;
+  language::ParameterChanges changes;
+  const bool off = parameter.further != 0 && value <= 1;
+  changes.list[changes.count++] = {parameter.parameter, off ? 0 : value / parameter.scale};
+  if (parameter.further != 0) changes.list[changes.count++] = {parameter.further, value > 0 ? 1.0 : 0.0};
+  return changes;
 }
 
 void ChannelSetup::set_tools(const idl::parameters::ToolTable& table) {

@@ -67,6 +67,7 @@ class ChannelSetup : public language::Environment {
   language::ProgramDialect program_dialect() const override { return program_dialect_; }
   /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
   std::optional<double> external_parameter(std::uint32_t number) const override;
+  language::ParameterChanges external_changes(std::uint32_t number, double value) const override;
   bool plane_angles_by_p() const override { return plane_angles_by_p_; }
   bool combined_feed() const override { return limits_.combined_feed; }
   language::CycleSettings cycle_settings() const override { return cycles_; }
@@ -169,7 +170,13 @@ class ChannelSetup : public language::Environment {
   bool plane_angles_by_p_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
   language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;
-  std::map<std::uint32_t, double> external_parameters_;
+  struct ExternalParameter {
+    double value = 0;
+    std::uint32_t parameter = 0;
+    double scale = 1;           ///< times the parameter is the value
+    std::uint32_t further = 0;  ///< ACCKFNB: that of the acceleration; 0 = none
+  };
+  std::map<std::uint32_t, ExternalParameter> external_parameters_;
   language::CycleSettings cycles_;
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};

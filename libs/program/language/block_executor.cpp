@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t highest_repetition = 999999;
 constexpr double largest_angle = 360;  // deg
+constexpr double read_seconds = 0.01;  // behind which a value is read: the PLC's main task has run
 
 /// The groups from `first` to `last`, which act one after the other.
 constexpr std::uint32_t groups(Group first, Group last) { return (group_bit(last) << 1) - group_bit(first); }
@@ -77,6 +78,7 @@ Fault BlockExecutor::run(Flow& flow) {
     if (const Fault fault = handlers_.modal.feed_word()) return fault;
   }
   if (const Fault fault = carry_out(group_bit(Group::spindle_mode))) return fault;
+  if (const Fault fault = select_spindle()) return fault;
   if (const Fault fault = handlers_.modal.spindle_word()) return fault;
   if (const Fault fault = handlers_.modal.tool_word()) return fault;
   if (const Fault fault = auxiliary(When::before)) return fault;
@@ -179,31 +181,51 @@ Fault BlockExecutor::act() {
 
 Fault BlockExecutor::auxiliary(When when) {
   const MCodes& m = context_.words.m();
-  ModalState& modal = context_.state.modal;
   for (std::size_t i = 0; i < m.count; ++i) {
-    const MCode& code = m.codes[i];
-    if (code.when != when) continue;
-    if (code.action == MAction::tool_change) modal.tool = modal.selected_tool;
-    if (code.group == MGroup::spindle) {
-      context_.state.parked = SpindleDirection::stopped;
-      modal.spindle_direction = code.number == 3   ? SpindleDirection::cw
-                                : code.number == 4 ? SpindleDirection::ccw
-                                                   : SpindleDirection::stopped;
+    if (m.codes[i].when != when || selects_spindle(m.codes[i])) continue;
+    if (const Fault fault = carry_out(m.codes[i], m.offsets[i])) return fault;
+  }
+  return {};
+}
+
+Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
+  ModalState& modal = context_.state.modal;
+  if (code.action == MAction::tool_change) modal.tool = modal.selected_tool;
+  if (code.group == MGroup::spindle) {
+    context_.state.parked = SpindleDirection::stopped;
+    modal.spindle_direction = code.number == 3   ? SpindleDirection::cw
+                              : code.number == 4 ? SpindleDirection::ccw
+                                                 : SpindleDirection::stopped;
+  }
+  if (code.action == MAction::auxiliary || code.action == MAction::tool_change) {
+    const char word = takes_angle(code.number) ? orientation_word() : '\0';
+    double angle = 0;
+    if (word != '\0') {
+      if (const Fault fault = orientation(code.number, word, angle)) return fault;
     }
-    if (code.action == MAction::auxiliary || code.action == MAction::tool_change) {
-      const char word = takes_angle(code.number) ? orientation_word() : '\0';
-      double angle = 0;
-      if (word != '\0') {
-        if (const Fault fault = orientation(code.number, word, angle)) return fault;
-      }
-      Command& command = context_.output.push(CommandKind::auxiliary);
-      command.number = code.number;
-      command.value = angle;
-      command.has_value = word != '\0';
-    } else if (code.action == MAction::program_end) {
-      if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, m.offsets[i]};
-      if (const Fault fault = context_.output.push_end(code.number)) return fault;
-    }
+    Command& command = context_.output.push(CommandKind::auxiliary);
+    command.number = code.number;
+    command.value = angle;
+    command.has_value = word != '\0';
+  } else if (code.action == MAction::program_end) {
+    if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, at};
+    if (const Fault fault = context_.output.push_end(code.number)) return fault;
+  }
+  return {};
+}
+
+// The S of a block of the NUM dialect is for the spindle that its M64 to M66 chooses.
+bool BlockExecutor::selects_spindle(const MCode& code) const {
+  constexpr std::uint16_t first_spindle = 64, last_spindle = 66;
+  return context_.environment.program_dialect() == ProgramDialect::num && code.number >= first_spindle &&
+         code.number <= last_spindle;
+}
+
+Fault BlockExecutor::select_spindle() {
+  const MCodes& m = context_.words.m();
+  for (std::size_t i = 0; i < m.count; ++i) {
+    if (!selects_spindle(m.codes[i])) continue;
+    if (const Fault fault = carry_out(m.codes[i], m.offsets[i])) return fault;
   }
   return {};
 }
@@ -354,6 +376,35 @@ Fault BlockExecutor::call_cycle(std::uint32_t number, std::uint32_t program, std
   context_.output.begin(program, line, out);
   if (const Fault fault = context_.output.refuse_in_compensation(0)) return fault;
   context_.output.push(CommandKind::cycle).number = number;
+  return context_.output.settle();
+}
+
+Fault BlockExecutor::read_value(std::uint32_t number, std::uint32_t program, std::uint32_t line,
+                                CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  if (const Fault fault = context_.output.refuse_in_compensation(0)) return fault;
+  Command& command = context_.output.push(CommandKind::read);
+  command.number = number;
+  command.dwell_seconds = read_seconds;
+  return context_.output.settle();
+}
+
+Fault BlockExecutor::order_spindle(std::uint32_t number, double value, std::uint32_t program,
+                                   std::uint32_t line, CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  Command& command = context_.output.push(CommandKind::spindle_order);
+  command.number = number;
+  command.value = value;
+  return context_.output.settle();
+}
+
+Fault BlockExecutor::write_parameter(std::uint32_t number, double value, std::uint32_t program,
+                                     std::uint32_t line, CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  Command& command = context_.output.push(CommandKind::table);
+  command.table = Table::parameter;
+  command.number = number;
+  command.value = value;
   return context_.output.settle();
 }
 

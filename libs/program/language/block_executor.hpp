@@ -30,7 +30,7 @@ struct Flow {
 };
 
 /// Executes blocks one after the other. Order within a block, which is not the order of its words:
-///  1. units, feed mode, F            2. S                    3. T
+///  1. units, feed mode, F            2. M64 to M66 of the NUM dialect, S    3. T
 ///  4. M that act before the motion   5. plane, distance, path control, work offset, polar, G98 G99, G5.1
 ///  6. tool length, tool tip control, cutter radius compensation, cycle off
 ///  7. scaling, mirror, rotation, tilted plane
@@ -99,6 +99,16 @@ class BlockExecutor {
   /// compensation: its moves need blocks that are not read yet.
   Fault call_cycle(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
+  /// Appends the reading of a value, `number` as Command::number. Not with cutter radius compensation, as
+  /// above.
+  Fault read_value(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+  /// Appends an order for a spindle, `number` as Command::number.
+  Fault order_spindle(std::uint32_t number, double value, std::uint32_t program, std::uint32_t line,
+                      CommandQueue& out);
+  /// Appends the change of a parameter as G10 L50 does.
+  Fault write_parameter(std::uint32_t number, double value, std::uint32_t program, std::uint32_t line,
+                        CommandQueue& out);
+
   const ModalState& modal() const { return context_.state.modal; }
   /// Where the last move that was read ends, in the frame of its commands. With cutter compensation this is
   /// the contour, not the centre of the tool.
@@ -127,6 +137,9 @@ class BlockExecutor {
   Fault check_context() const;
   Fault finish_block();
   Fault auxiliary(When when);
+  Fault carry_out(const MCode& code, std::uint16_t at);
+  Fault select_spindle();
+  bool selects_spindle(const MCode& code) const;
   /// The block of M`code` may give an angle.
   bool takes_angle(std::uint16_t code) const;
   /// The letter of the angle of such an M code (M19), R or P; 0 when the block has none.

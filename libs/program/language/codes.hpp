@@ -128,10 +128,12 @@ constexpr MCode m_code(std::uint16_t number) {
 /// The modal motion code `motion` cuts a thread.
 constexpr bool is_thread(std::uint8_t motion) { return motion == 33 || motion == 34; }
 
-/// T, S, and M codes that do not only steer the program's flow: what the PLC carries out and going back along
-/// the path does not undo.
+/// T, S, orders for spindles, and M codes that do not only steer the program's flow: what the PLC carries out
+/// and going back along the path does not undo.
 constexpr bool changes_machine(const Command& command) {
-  if (command.kind == CommandKind::tool || command.kind == CommandKind::spindle_speed) return true;
+  if (command.kind == CommandKind::tool || command.kind == CommandKind::spindle_speed ||
+      command.kind == CommandKind::spindle_order)
+    return true;
   return command.kind == CommandKind::auxiliary &&
          m_code(static_cast<std::uint16_t>(command.number)).group != MGroup::flow;
 }

@@ -2,8 +2,10 @@
 // System variables: the state of the control as a program sees it.
 #pragma once
 
+#include <array>
 #include <optional>
 
+#include "canonical/spindle_value.hpp"
 #include "language/block_executor.hpp"
 #include "language/environment.hpp"
 #include "language/variables.hpp"
@@ -39,15 +41,30 @@ class ControlVariables final : public SystemVariables {
   /// What #3100 reads from now on.
   void answer(double value) { answer_ = value, needs_answer_ = false; }
   /// A text begins: an answer that an earlier one needed will not come.
-  void forget_call() { needs_answer_ = false; }
+  void forget_call() {
+    needs_answer_ = needs_value_ = false;
+    values_ = 0;
+  }
+
+  /// A line is read, for the first time or with the values that it has asked for.
+  void begin_line() { values_read_ = request_count_ = 0; }
+  /// It was carried out, or has an alarm.
+  void end_line() { values_ = 0; }
+  /// Reading it has ended with value_pending: Command::number of the value it needs.
+  std::uint32_t wanted() const { return wanted_; }
+  void await_value() { needs_value_ = true; }
+  bool needs_value() const { return needs_value_; }
+  /// Of the newest alarm spindle_without_mark: which spindle.
+  const char* unmarked() const { return unmarked_; }
+  void give_value(double value);
 
   AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const override;
   AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) override;
-  std::optional<double> external_parameter(std::uint32_t number) const override {
-    return environment_.external_parameter(number);
-  }
+  AlarmNumber read_external(std::uint32_t number, double& value) const override;
+  Fault write_external(std::uint32_t number, double value) override;
 
-  /// Carries out what writing a variable asked for since the last time: a message, a change of a table.
+  /// Carries out what writing variables asked for since the last time: a message, a change of a table, an
+  /// order for a spindle.
   Fault carry_out(std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
  private:
@@ -56,6 +73,10 @@ class ControlVariables final : public SystemVariables {
   double in_program_units(std::uint32_t axis, double value) const;
   double to_machine_units(std::uint32_t axis, double value) const;
   AlarmNumber ask(const VariableRange& range, std::uint32_t index, double value);
+  AlarmNumber order(const VariableRange& range, std::uint32_t index, double value);
+  AlarmNumber spindle_value(canonical::SpindleValue value, std::uint32_t spindle, double& result) const;
+  AlarmNumber live_parameter(std::uint32_t number, double& value) const;
+  Fault check_master(std::uint32_t slave, double address) const;
 
   const Environment& environment_;
   BlockExecutor& executor_;
@@ -73,7 +94,25 @@ class ControlVariables final : public SystemVariables {
     std::uint32_t index = 0;
     double value = 0;
   };
-  std::optional<Request> request_;
+  Fault carry_out_external(const Request& request, std::uint32_t program, std::uint32_t line,
+                           CommandQueue& out);
+  static constexpr std::size_t most_requests = 8;  // in a line
+  std::array<Request, most_requests> requests_;
+  std::size_t request_count_ = 0;
+  static constexpr std::size_t most_values = 16;  // that a line asks for
+  std::array<double, most_values> value_{};
+  std::size_t values_ = 0;               // known
+  mutable std::size_t values_read_ = 0;  // in this reading of the line
+  mutable std::uint32_t wanted_ = 0;
+  mutable const char* unmarked_ = "";
+  bool needs_value_ = false;
+  // External parameters as the program has written them: as many as there are.
+  struct Programmed {
+    std::uint32_t number = 0;
+    double value = 0;
+  };
+  std::array<Programmed, 32> programmed_{};
+  std::size_t programmed_count_ = 0;
 };
 
 }  // namespace trunnion::language

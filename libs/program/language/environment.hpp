@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -70,6 +71,16 @@ struct TravelBreach {
 /// How programs are written (parameter 04c959).
 enum class ProgramDialect : std::uint8_t { iso, num };
 
+/// Parameters of the machine and what they become.
+struct ParameterChanges {
+  struct Change {
+    std::uint32_t number = 0;
+    double value = 0;
+  };
+  std::array<Change, 2> list{};
+  std::size_t count = 0;
+};
+
 inline constexpr std::uint8_t work_offset_count = 54;
 
 /// M codes whose block may give an angle by R or P; -1 = none.
@@ -90,6 +101,12 @@ class Environment {
   virtual std::optional<double> external_parameter(std::uint32_t number) const {
     static_cast<void>(number);
     return std::nullopt;
+  }
+  /// What writing it changes; nothing when the machine does not have it.
+  virtual ParameterChanges external_changes(std::uint32_t number, double value) const {
+    static_cast<void>(number);
+    static_cast<void>(value);
+    return {};
   }
   /// Tool length of table entry `h` (from 1) in mm, or nothing when there is no such entry.
   virtual std::optional<double> tool_length(std::uint16_t h) const = 0;

@@ -77,6 +77,7 @@ Step Interpreter::next(Command& command) {
     }
     if (executor_.needs_position()) return Step::position;
     if (control_.needs_answer()) return Step::answer;
+    if (control_.needs_value()) return Step::value;
     if (state_ == State::done) return Step::end;
     if (state_ == State::failed) return Step::alarm;
     if (lines == lines_per_call) return Step::working;
@@ -127,14 +128,28 @@ Alarm Interpreter::located(const Fault& fault, std::string_view line) {
     return make_alarm({fault.number, 0}, {}, levels_[depth_].program, executor_.interference().line,
                       executor_.fault_detail(fault.number));
   }
-  Alarm alarm = make_alarm(fault, line, levels_[depth_].program, line_, executor_.fault_detail(fault.number));
+  const std::string_view detail = fault.number == AlarmNumber::spindle_without_mark
+                                      ? std::string_view(control_.unmarked())
+                                      : executor_.fault_detail(fault.number);
+  Alarm alarm = make_alarm(fault, line, levels_[depth_].program, line_, detail);
   alarm.calls = static_cast<std::uint8_t>(depth_);
   for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {levels_[i].program, levels_[i + 1].call_line};
   return alarm;
 }
 
 Interpreter::State Interpreter::fail(const Fault& fault, std::string_view line) {
+  if (fault.number == value_pending) return ask_value(line);
   return fail(located(fault, line));
+}
+
+// The line has had no effect yet but for what it has stored: that is taken back, and the line is read again.
+Interpreter::State Interpreter::ask_value(std::string_view line) {
+  if (!variables_.take_back()) return fail({AlarmNumber::too_many_codes, 0}, line);
+  if (const Fault fault = executor_.read_value(control_.wanted(), levels_[depth_].program, line_, queue_))
+    return fail(fault, line);
+  control_.await_value();
+  reader_.seek(*levels_[depth_].source, position_);
+  return State::running;
 }
 
 Interpreter::State Interpreter::fail(const Alarm& alarm) {
@@ -161,6 +176,14 @@ Interpreter::State Interpreter::run_line(Step& step) {
 }
 
 Interpreter::State Interpreter::execute(std::string_view line) {
+  variables_.begin_line();
+  control_.begin_line();
+  const State state = execute_block(line);
+  if (!control_.needs_value()) control_.end_line();
+  return state;
+}
+
+Interpreter::State Interpreter::execute_block(std::string_view line) {
   CallLevel& level = levels_[depth_];
   if (const Fault fault = dialect_->read_block(line, options_.block_skip, variables_, block_))
     return fail(fault, line);
@@ -181,7 +204,10 @@ Interpreter::State Interpreter::execute(std::string_view line) {
   return execute_words(line);
 }
 
+Fault Interpreter::carry_out_requests() { return control_.carry_out(levels_[depth_].program, line_, queue_); }
+
 Interpreter::State Interpreter::execute_words(std::string_view line) {
+  if (const Fault fault = carry_out_requests()) return fail(fault, line);
   if (rules_.text_ends_subprograms && depth_ != 0) return_at_end(block_);
   Call call;
   if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);

@@ -26,6 +26,7 @@ enum class Step : std::uint8_t {
   position,  ///< a command before was a skip move or a search for references: set_position() must report
              ///< where it ended, for what the program does next depends on it
   answer,    ///< the command before calls a cycle of another service: answer() must report what it has said
+  value,     ///< the command before reads a value of a spindle: give_value() must report it
   line,      ///< the line of stop_before_line() would be read next; it will be, when next() is called again
 };
 
@@ -101,6 +102,9 @@ class Interpreter {
   /// again: the service may have stored another text.
   void answer(double value);
 
+  /// The value that a command of kind read has asked for. The line that needs it is read again.
+  void give_value(double value) { control_.give_value(value); }
+
   /// What the variables of time show from now on; before the first call they show zero.
   void set_time(const ControlTime& time) { control_.set_time(time); }
 
@@ -172,7 +176,10 @@ class Interpreter {
 
   State run_line(Step& step);
   State execute(std::string_view line);
+  State execute_block(std::string_view line);
   State execute_words(std::string_view line);
+  State ask_value(std::string_view line);
+  Fault carry_out_requests();
   State go(const Flow& flow, std::string_view line);
   State end_of_text();
   bool jumped_back(std::uint64_t from, std::size_t depth) const;

@@ -14,7 +14,7 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
     case Statement::none:
       return State::running;
     case Statement::assignment:
-      if (Fault fault = control_.carry_out(level.program, line_, queue_)) {
+      if (Fault fault = carry_out_requests()) {
         fault.offset = block_.at;
         return fail(fault, line);
       }
@@ -37,8 +37,10 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
       else_if_due_ = false;
       if (!due) return jump(Purpose::end, 0, position_, in_vain, line);
       bool condition = false;
-      if (const Fault fault = dialect_->read_condition(line, block_.rest, variables_, condition))
+      if (const Fault fault = dialect_->read_condition(line, block_.rest, variables_, condition)) {
+        else_if_due_ = fault.number == value_pending;
         return fail(fault, line);
+      }
       return branch(condition, line);
     }
     case Statement::else_:
@@ -63,7 +65,9 @@ Interpreter::State Interpreter::branch(bool condition, std::string_view line) {
 
 // What the NUM dialect permits behind THEN and DO.
 Interpreter::State Interpreter::execute_rest(std::string_view line) {
-  return block_.has_more() ? execute_words(line) : State::running;
+  if (block_.has_more()) return execute_words(line);
+  if (const Fault fault = carry_out_requests()) return fail(fault, line);
+  return State::running;
 }
 
 Interpreter::State Interpreter::jump(Purpose purpose, std::uint32_t wanted, TextPosition from,

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "canonical/spindle_value.hpp"
 #include "language/arithmetic.hpp"
 #include "language/letters.hpp"
 #include "language/macro_call.hpp"
@@ -18,7 +19,9 @@ namespace {
 
 constexpr double highest_sequence_number = 99999999;
 constexpr double largest_parameter = 2147483647;
-constexpr double tap_removal = 84.9;  // of g_codes
+constexpr double tap_removal = 84.9;    // of g_codes
+constexpr double thread_motion = 33;    // the same
+constexpr double active_motion = 4001;  // variable with the motion code in force
 constexpr std::uint32_t num_letters = letter_bits("ABCFHKRSTUVWXYZ");
 constexpr std::uint32_t homing_program = 9990 + 9 * program_tenth;
 constexpr const char* thread_cycle = "thread cutting cycle";
@@ -163,7 +166,7 @@ class NumReader {
   Fault e_item(std::uint16_t at) {
     const char second = letter(scanner_.peek(1));
     if (second == '\0') return assign_parameter(at);
-    if (second == 'C') return taught_word(taught_angle_word, at);
+    if (second == 'C') return takes_up() ? taught_word(taught_angle_word, at) : spindle_angle(at);
     if (second == 'X') return taught_word(taught_x_word, at);
     if (second == 'Z') return taught_word(taught_z_word, at);
     for (const PairWord& pair : pair_words) {
@@ -180,18 +183,38 @@ class NumReader {
     return {AlarmNumber::unknown_instruction, at};
   }
 
-  /// EC, EX and EZ of G33.
+  /// The thread of the block may begin in phase with one that is there: EC is its angle.
+  bool takes_up() const { return thread_ == NumUse::one_pass || thread_ == NumUse::resumed; }
+
+  /// EC, EX and EZ of G33; G38+ has its EC already.
   Fault taught_word(char name, std::uint16_t at) {
     scanner_.advance(2);
     double value = 0;
     if (const Fault fault = number(at, value)) return fault;
     any_ = true;
-    if (thread_ != NumUse::one_pass)
-      return name == taught_angle_word ? Fault{AlarmNumber::num_function_missing, at, "angle of a spindle"}
-                                       : Fault{AlarmNumber::num_word, at};
+    if (thread_ != NumUse::one_pass && name != taught_angle_word) return {AlarmNumber::num_word, at};
     if (block_.has(name)) return {AlarmNumber::letter_twice, at};
     store(name, value, at);
     return {};
+  }
+
+  /// EC elsewhere: the angle of the synchronizations that are ordered from now on.
+  Fault spindle_angle(std::uint16_t at) {
+    scanner_.advance(2);
+    double value = 0;
+    if (const Fault fault = number(at, value)) return fault;
+    any_ = assigned_ = true;
+    orders_angle_ = true;
+    angle_at_ = at;
+    return order(canonical::order_angle, value, at);
+  }
+
+  Fault order(std::uint32_t number, double value, std::uint16_t at) {
+    if (!orders_) order_at_ = at;
+    orders_ = true;
+    Fault fault = variables_.write_external(number, value);
+    fault.offset = at;
+    return fault;
   }
 
   Fault assigned(double& value) {
@@ -215,12 +238,16 @@ class NumReader {
     ExternalPlace place;
     double value = 0;
     if (const Fault fault = expressions_.parameter(at, place)) return fault;
-    if (!place.is_free()) {
-      return {place.row->writable ? AlarmNumber::num_parameter_unavailable : AlarmNumber::variable_read_only,
-              at, place.name()};
-    }
+    if (!place.is_free() && !place.row->writable) return {AlarmNumber::variable_read_only, at, place.name()};
     if (const Fault fault = assigned(value)) return fault;
     value = nearly_whole(value);
+    if (!place.is_free()) {
+      Fault fault = order(place.number(), value, at);
+      if (fault && fault.number != value_pending && fault.detail == nullptr &&
+          fault.number != AlarmNumber::spindle_without_mark)
+        fault.detail = place.name();
+      return fault;
+    }
     if (value != std::floor(value) || std::abs(value) > largest_parameter)
       return {AlarmNumber::variable_value, at, "a whole number"};
     const AlarmNumber alarm = variables_.write(first_free_variable + place.index, Value::of(value));
@@ -386,6 +413,7 @@ class NumReader {
 
   Fault complete() {
     block_.lead_word = 'K';
+    if (const Fault fault = check_order()) return fault;
     if (const Fault fault = complete_thread()) return fault;
     if (const Fault fault = calls_ ? complete_call() : check_no_call()) return fault;
     if (const Fault fault = removes_ ? complete_removal() : taps_ ? check_tap() : check_no_tap())
@@ -396,6 +424,19 @@ class NumReader {
     if (assigned_ && block_.statement == Statement::none && !block_.has_more())
       block_.statement = Statement::assignment;
     return {};
+  }
+
+  /// An order is carried out at rest, so it would end the thread that its block continues. In a block with a
+  /// code of a thread, or with G39+, EC is no order.
+  Fault check_order() const {
+    if (!orders_) return {};
+    if (orders_angle_ && removes_) return wrong_removal(removal_at_);
+    if (orders_angle_ && thread_ != NumUse::code) return {AlarmNumber::num_word, angle_at_};
+    if (block_.g_count != 0 || (block_.letters & axis_bits) == 0) return {};
+    Value motion;
+    const AlarmNumber alarm = variables_.read(active_motion, motion);
+    const bool continues = alarm == AlarmNumber::none && motion.number == thread_motion;
+    return continues ? Fault{AlarmNumber::num_word, order_at_} : Fault{};
   }
 
   Fault complete_thread() {
@@ -510,9 +551,11 @@ class NumReader {
   bool done_ = false;  // nothing more of the line is read
   bool any_ = false;   // more than N was read: no structure or jump may come
   bool assigned_ = false;
+  bool orders_ = false, orders_angle_ = false;
   bool calls_ = false, dwells_ = false, homes_ = false, taps_ = false, removes_ = false;
   NumUse thread_ = NumUse::code;  // that of G33, G38 or G38+; code: the block has none of them
   std::uint16_t call_at_ = 0, dwell_at_ = 0, thread_at_ = 0, tap_at_ = 0, removal_at_ = 0;
+  std::uint16_t order_at_ = 0, angle_at_ = 0;
 };
 
 }  // namespace

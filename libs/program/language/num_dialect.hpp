@@ -18,6 +18,9 @@ namespace trunnion::language {
 ///   with what was assigned before them;
 /// - IF condition THEN, ELSE, ENDI; WHILE condition DO, ENDW: first in their line; behind THEN and DO may be
 ///   words, assignments and a message, behind the others nothing;
+/// - E94125=24 orders the synchronization of a spindle, EC, in a block without a thread, its angle: the block
+///   waits until both spindles are known to be homed. Values that the drive knows (E93525) are read at rest,
+///   before their block;
 /// - G77 Hn.i calls a program, behind the words of its block; the end of its text, the next head or M2 ends
 ///   it. Program 9990.9 homes the axis of L0 unless it is stored. G79 Nn and G79 condition Nn jump, alone in
 ///   their block.

@@ -160,10 +160,8 @@ Fault NumExpressionReader::parameter_value(std::uint16_t at, double& result) {
     result = stored.number;
     return alarm == AlarmNumber::none ? Fault{} : Fault{alarm, at};
   }
-  const auto machine = variables_.external_parameter(place.number());
-  if (!machine) return {AlarmNumber::num_parameter_unavailable, at, place.name()};
-  result = *machine;
-  return {};
+  const AlarmNumber alarm = variables_.read_external(place.number(), result);
+  return alarm == AlarmNumber::none ? Fault{} : Fault{alarm, at, place.name()};
 }
 
 Fault NumExpressionReader::modal_value(std::uint16_t at, double& result) {

@@ -75,6 +75,7 @@ Fault PathMotion::cut_thread() {
   // On NUM controls a block that continues a thread has its end and perhaps its lead, and nothing else.
   if (words_.lead_word() == 'K' && !words_.g().has(Group::motion)) {
     if (words_.has_codes()) return {AlarmNumber::num_word, words_.first_offset()};
+    if (words_.shows_message()) return {AlarmNumber::num_word, at};
     const std::uint32_t others = words_.letters() & ~(axis_bits | letter_bits("KN"));
     if (others != 0) return {AlarmNumber::num_word, words_.offset_of_any(others)};
   }

@@ -12,12 +12,12 @@ namespace trunnion::program_execution {
 
 using idl::channel::AuxiliaryKind;
 
-/// One M, S or T of the handshake with the PLC.
+/// One M, S, T or order for a spindle (E) of the handshake with the PLC.
 struct AuxiliaryFunction {
   AuxiliaryKind kind = AuxiliaryKind::M;
-  std::uint32_t code = 0;  ///< M or T number
+  std::uint32_t code = 0;  ///< M or T number; of E as Command::number of kind spindle_order
   double value = 0;        ///< S in 1/min, or m/min with G96; with has_value the angle of M19 in deg
-  bool has_value = false;  ///< of M
+  bool has_value = false;  ///< of M and E
   bool surface = false;    ///< of S: `value` is a surface speed (G96)
   double limit = 0;        ///< 1/min, of a surface speed; 0 = none
   double radius = 0;       ///< mm, of a surface speed: the axes are as far from the centre of the spindle

@@ -58,6 +58,7 @@ void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, c
   search_ = entry.restart.sequence > 0 ? Search::restart : entry.line > 0 ? Search::line : Search::none;
   if (entry.restart.sequence == 0) skips_.clear();
   skips_read_ = 0;
+  values_read_ = 0, value_last_ = false;
   lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   place_ = position;
   tapping_ = in_hole_ = text_missing_ = behind_thread_ = false;
@@ -115,7 +116,7 @@ FlowState ProgramFlow::push_move() {
   // The drive gives the stream no place before every axis has its reference.
   if (!without_reference_.empty()) return fail_without_reference();
   const auto& from = motion_->end_position();
-  if (command_.kind != CommandKind::dwell) {
+  if (command_.kind != CommandKind::dwell && command_.kind != CommandKind::read) {
     if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
     if (const auto state = ask_guard(from); state != FlowState::full) return state;
   }
@@ -123,6 +124,7 @@ FlowState ProgramFlow::push_move() {
               : command_.kind == CommandKind::thread ? thread_line(command_, from)
                                                      : command_;
   if (move.kind == CommandKind::skip) move.kind = CommandKind::line;
+  if (move.kind == CommandKind::read) move.kind = CommandKind::dwell;
   const bool own_speed = command_.kind == CommandKind::tap || command_.kind == CommandKind::skip ||
                          command_.kind == CommandKind::thread;
   if (dry_run_feed_ > 0 && !own_speed) {
@@ -191,8 +193,10 @@ double ProgramFlow::speed_of_feed(const AxisValues& from, const language::Comman
       canonical::lower_limit(modal.spindle_limit, environment_.highest_spindle_speed()));
 }
 
+// The wait before a value is read is made again.
 bool ProgramFlow::begins_within() const {
-  return entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0;
+  return entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0 &&
+         command_.kind != CommandKind::read;
 }
 
 language::Arc ProgramFlow::remaining_arc(const AxisValues& from) const {
@@ -253,6 +257,45 @@ void ProgramFlow::home_ended(const AxisValues& position) {
   finish_pending();
 }
 
+// Equal values behind each other are one result, so that a program that waits for a value can be continued:
+// X of `stopped` is the value, X of `touched` how often it was read.
+void ProgramFlow::value_read(double value) {
+  using language::X;
+  if (value_last_ && skips_.back().stopped[X] == value) {
+    values_read_ = skips_.back().touched[X];
+    skips_.back().touched[X] += 1;
+    --skips_read_;
+    return;
+  }
+  SkipResult result;
+  result.stopped[X] = value, result.touched[X] = 1;
+  skips_.push_back(result);
+}
+
+// As behind a skip move.
+FlowState ProgramFlow::continue_after_read() {
+  if (search_ == Search::line)
+    return fail_search("line " + std::to_string(command_.line) +
+                       " reads the state of a spindle, and what follows depends on it");
+  if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
+  const auto& result = skips_[skips_read_];
+  interpreter_.give_value(result.stopped[language::X]);
+  values_read_ += 1;
+  value_last_ = values_read_ >= result.touched[language::X];
+  if (value_last_) ++skips_read_, values_read_ = 0;
+  return FlowState::full;
+}
+
+// What was read behind the restart point is void.
+void ProgramFlow::drop_later_results() {
+  if (values_read_ > 0) {
+    skips_[skips_read_].touched[language::X] = std::exchange(values_read_, 0);
+    ++skips_read_;
+    value_last_ = true;
+  }
+  skips_.resize(skips_read_);
+}
+
 // A skip move has ended, now or before the restart: the interpreter continues from where it ended. A search
 // for references that was passed over has ended at the reference positions.
 FlowState ProgramFlow::continue_after_skip() {
@@ -264,6 +307,7 @@ FlowState ProgramFlow::continue_after_skip() {
   if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
   interpreter_.set_position(skips_[skips_read_].stopped, skips_[skips_read_].touched);
   ++skips_read_;
+  value_last_ = false;
   return FlowState::full;
 }
 
@@ -310,6 +354,8 @@ FlowState ProgramFlow::take_step(language::Step step) {
       return continue_after_skip();
     case language::Step::answer:
       return fail_after_cycle();
+    case language::Step::value:
+      return continue_after_read();
     case language::Step::line:
       return arrive_at_line();
     case language::Step::end:
@@ -343,7 +389,7 @@ std::optional<double> ProgramFlow::turning_radius(std::uint32_t sequence, const 
 void ProgramFlow::note_motion() {
   const auto kind = command_.kind;
   bool moves = kind == CommandKind::tap || kind == CommandKind::skip || kind == CommandKind::arc ||
-               kind == CommandKind::home || kind == CommandKind::thread ||
+               kind == CommandKind::home || kind == CommandKind::thread || kind == CommandKind::read ||
                (kind == CommandKind::dwell && command_.dwell_seconds > 0);
   for (std::size_t i = 0; i < place_.size() && is_path(kind); ++i)
     moves = moves || std::abs(command_.target[i] - place_[i]) > least_motion;
@@ -389,7 +435,7 @@ FlowState ProgramFlow::fill(bool single_block) {
         return fail(language::AlarmNumber::not_resumable);
       search_ = Search::none;
       // A drive that lost its newest cycles repeats the skip moves in them: their results are void.
-      skips_.resize(skips_read_);
+      drop_later_results();
       modals_.clear();
       modals_.add(0, command_.modal);
       motion_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);

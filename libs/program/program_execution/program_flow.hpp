@@ -136,6 +136,9 @@ class ProgramFlow {
     interpreter_.answer(value);
     finish_pending();
   }
+  /// Where time has passed for the pending reading of a value: what the drive says. A restart of the program
+  /// reads it again.
+  void value_read(double value);
   /// While a call of a cycle is pending: the local variables of the macro that calls, the line of the started
   /// program, and the modal state it is called in.
   const std::array<language::Value, language::local_variables>& locals() const {
@@ -210,6 +213,8 @@ class ProgramFlow {
   void place_alarm(std::uint32_t program, std::uint32_t line);
   FlowState continue_after_skip();
   FlowState fail_after_cycle();
+  FlowState continue_after_read();
+  void drop_later_results();
   language::Environment& environment_;
   const channel_setup::ChannelSetup* machine_ = nullptr;
   motion::MoveTaker* motion_ = nullptr;  // of the run
@@ -240,6 +245,8 @@ class ProgramFlow {
   std::string without_reference_;
   std::vector<SkipResult> skips_;
   std::size_t skips_read_ = 0;
+  double values_read_ = 0;   // of the equal values that the next result is
+  bool value_last_ = false;  // the result before it is one of equal values
 
   const machine::AlarmDefinition* alarm_ = nullptr;
   std::string alarm_text_;

@@ -154,7 +154,7 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
 // restart point is reached it may not: its trajectory starts there, wherever the axes are.
 Answer ChannelCore::set_mode(Mode mode) {
   const bool leaves = states_.may_suspend() && !restart_ && !tapping_.active() && !thread_.active() &&
-                      !skip_.active() && !program_homing_.under_way();
+                      !skip_.active() && !read_.active() && !program_homing_.under_way();
   if (states_.busy() && !leaves && mode != mode_)
     return refuse(alarm::request_invalid,
                   "The mode cannot change while the channel is busy: stop or reset it first");

@@ -132,6 +132,7 @@ void ChannelCore::stop_activity() {
   const bool moved = preparing == nullptr || preparing->approaching;
   if (states_.busy() && stream_.idle() && !link().needs_epoch() && moved) machine_start_ = machine_position();
   skip_.end();
+  read_.end();
   program_homing_.end();
   finish_tapping();
   finish_thread();
@@ -152,6 +153,7 @@ void ChannelCore::stop_activity() {
 void ChannelCore::finish(bool program_end) {
   const bool reset = states_.resetting();
   skip_.end();
+  read_.end();
   program_homing_.end();
   finish_tapping();
   finish_thread();

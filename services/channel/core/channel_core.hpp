@@ -39,6 +39,7 @@
 #include "program_record.hpp"
 #include "program_selection.hpp"
 #include "skip_move.hpp"
+#include "spindle_read.hpp"
 #include "stream_writer.hpp"
 #include "switches.hpp"
 #include "table_change.hpp"
@@ -171,7 +172,7 @@ class ChannelCore {
   // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_. No
   // fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
   // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and the state of the
-  // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, skip_,
+  // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, skip_, read_,
   // exact_stop_, tapping_, thread_, program_homing_, homed_at_start_, restart_, recovered_, variables_news_,
   // events_. No fields, they are made again: program_path_, manual_path_, program_cache_, bodies_, unusable_,
   // state_.
@@ -284,6 +285,8 @@ class ChannelCore {
   // channel_cycles.cpp: moves that a skip input ends, and those a spindle follows.
   void begin_skip();
   void finish_skip();
+  void begin_read(const language::Command& command);
+  bool finish_read();
   void begin_tapping();
   void finish_tapping();
   double tapping_override() const;
@@ -363,6 +366,7 @@ class ChannelCore {
   ProgramCache program_cache_;
   ChannelBodies bodies_;
   SkipMove skip_;
+  SpindleRead read_;
   ExactStopCheck exact_stop_;
   Tapping tapping_;
   ThreadRun thread_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves that are more than a path: those a skip input ends, those a spindle follows, and those that follow
-// one.
+// one. Values of spindles, behind a wait.
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/axes.hpp"
@@ -25,6 +25,20 @@ void ChannelCore::finish_skip() {
   }
   skip_.end();
   flow().skip_ended(result);
+}
+
+// As a skip move: nothing is read ahead, and the wait lets time pass in a loop that does nothing else.
+void ChannelCore::begin_read(const language::Command& command) {
+  const auto number = command.number;
+  if (flow().push_pending() != FlowState::alarm) read_.begin(number);
+}
+
+bool ChannelCore::finish_read() {
+  if (!read_.value()) return false;
+  const auto value = *read_.value();
+  read_.end();
+  flow().value_read(value);
+  return true;
 }
 
 void ChannelCore::begin_tapping() {

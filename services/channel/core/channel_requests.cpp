@@ -105,6 +105,12 @@ void ChannelCore::execute(const language::Command& command) {
     case language::CommandKind::skip:
       begin_skip();
       return;
+    case language::CommandKind::read:
+      begin_read(command);
+      return;
+    case language::CommandKind::spindle_order:
+      begin_auxiliary({AuxiliaryKind::E, command.number, command.value, true});
+      return;
     case language::CommandKind::tap:
       begin_tapping();
       return;

@@ -29,6 +29,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   apply_parameters();
   adopt_position();
   skip_.end();
+  read_.end();
   finish_tapping();
   finish_thread();
   auto& text = program_cache_.open(selected());

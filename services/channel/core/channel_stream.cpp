@@ -26,7 +26,7 @@ void ChannelCore::hold() {
 FlowState ChannelCore::fill() {
   auto* running = states_.running();
   if (running == nullptr || !states_.interpreting() || states_.abandoned() || running->retracing ||
-      skip_.active() || thread_.cutting())
+      skip_.active() || read_.active() || thread_.cutting())
     return FlowState::full;
   flow().set_cycle(link().next());
   path().trajectory().set_position_check(tapping_.active() ? 0 : exact_stop_.cycles());
@@ -79,10 +79,13 @@ void ChannelCore::advance() {
       finish(false);
       return;
     }
-    if (skip_.active())
+    if (skip_.active()) {
       finish_skip();
-    else
+    } else if (read_.active()) {
+      if (!finish_read()) return;
+    } else {
       run_pending(state);
+    }
     if (state == FlowState::loop) return;
   }
 }

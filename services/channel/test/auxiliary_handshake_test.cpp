@@ -21,6 +21,10 @@ TEST(AuxiliaryHandshake, NamesTheOpenFunctionAsAProgramWritesIt) {
   handshake.begin({AuxiliaryKind::T, 12, 0}, 1);
   EXPECT_EQ(handshake.function(), "T12");
   handshake.cancel();
+  handshake.begin({AuxiliaryKind::E, 94125, 24, true}, 1);
+  EXPECT_EQ(handshake.function(), "E94125");
+  handshake.begin({AuxiliaryKind::E, 0, 90, true}, 1);
+  EXPECT_EQ(handshake.function(), "EC");
   handshake.begin({AuxiliaryKind::S, 0, 2500}, 1);
   EXPECT_EQ(handshake.function(), "S2500");
 }

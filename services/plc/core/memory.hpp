@@ -38,7 +38,7 @@ struct Registers {
 
 enum class HandshakeState : std::uint32_t { none, waiting, strobe, done };
 
-/// A pending M, S or T of one channel.
+/// A pending M, S, T or E of one channel.
 struct Handshake {
   HandshakeState state = HandshakeState::none;
   std::uint32_t number = 0;

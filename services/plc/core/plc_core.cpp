@@ -38,8 +38,9 @@ PlcCore::PlcCore() {
         of("channel_running"), of("channel_held"),  of("channel_idle"),   of("channel_homed"),
         of("channel_rtcp"),    of("channel_reset"), of("mode_auto"),      of("mode_mdi"),
         of("mode_jog"),        of("mode_ref"),      of("m_strobe"),       of("s_strobe"),
-        of("t_strobe"),        of("m_code"),        of("m_angle"),        of("s_value"),
-        of("t_code"),          of("feed_override"), of("rapid_override"), of("spindle_override"),
+        of("t_strobe"),        of("e_strobe"),      of("m_code"),         of("m_angle"),
+        of("s_value"),         of("t_code"),        of("e_order"),        of("e_spindle"),
+        of("e_value"),         of("feed_override"), of("rapid_override"), of("spindle_override"),
         of("active_tool"),     of("fin"),           of("fin_failed"),     of("s_surface_speed"),
         of("s_limit"),         of("s_radius")};
     for (const auto address : {channel_symbols_[c].feed_override, channel_symbols_[c].rapid_override,
@@ -278,11 +279,18 @@ void PlcCore::set_strobes(bool present) {
         store(r, s.s_surface_speed, std::llround(surface));
       }
       if (h.kind == AuxiliaryKind::T) store(r, s.t_code, h.code);
+      if (h.kind == AuxiliaryKind::E) {
+        const auto order = spindle_order(h.code, h.value);
+        store(r, s.e_order, order.order);
+        store(r, s.e_spindle, order.spindle);
+        store(r, s.e_value, order.value);
+      }
     }
     const bool strobe = h.state == HandshakeState::strobe;
     store(r, s.m_strobe, strobe && h.kind == AuxiliaryKind::M);
     store(r, s.s_strobe, strobe && h.kind == AuxiliaryKind::S);
     store(r, s.t_strobe, strobe && h.kind == AuxiliaryKind::T);
+    store(r, s.e_strobe, strobe && h.kind == AuxiliaryKind::E);
   }
 }
 
@@ -290,8 +298,11 @@ void PlcCore::finish() {
   for (std::size_t c = 0; c < channel_count; ++c) {
     auto& h = memory_.handshakes[c];
     const auto& s = channel_symbols_[c];
-    if (h.state != HandshakeState::strobe || plc::load(memory_.registers, s.fin) == 0) continue;
-    h.failed = static_cast<std::uint32_t>(plc::load(memory_.registers, s.fin_failed));
+    if (h.state != HandshakeState::strobe) continue;
+    // Programs without orders for spindles would never answer one.
+    const bool unknown = h.kind == AuxiliaryKind::E && !structured_.uses(s.e_order.area, s.e_order.index);
+    if (!unknown && plc::load(memory_.registers, s.fin) == 0) continue;
+    h.failed = unknown ? 1u : static_cast<std::uint32_t>(plc::load(memory_.registers, s.fin_failed));
     h.state = HandshakeState::done;
     done_.push_back({static_cast<std::uint16_t>(c), h.number, h.failed != 0});
   }

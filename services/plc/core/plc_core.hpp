@@ -27,6 +27,15 @@ inline constexpr std::int32_t no_angle = 65535;
 /// Whole hundredths of a degree, 0 .. 35999.
 std::int32_t hundredths(double degrees);
 
+/// An order for a spindle as the registers e_order, e_spindle and e_value have it.
+struct SpindleOrder {
+  std::int32_t order = 0;  ///< 0: none that is known
+  std::int32_t spindle = 0;
+  std::int32_t value = 0;
+};
+/// Of `code` and `value` of an AuxiliaryRequest.
+SpindleOrder spindle_order(std::uint32_t code, double value);
+
 inline constexpr std::size_t message_words = st::most_messages / 16;
 
 class PlcCore {
@@ -117,7 +126,8 @@ class PlcCore {
  private:
   struct ChannelSymbols {
     Address running, held, idle, homed, rtcp, reset, mode_auto, mode_mdi, mode_jog, mode_ref;
-    Address m_strobe, s_strobe, t_strobe, m_code, m_angle, s_value, t_code;
+    Address m_strobe, s_strobe, t_strobe, e_strobe, m_code, m_angle, s_value, t_code;
+    Address e_order, e_spindle, e_value;
     Address feed_override, rapid_override, spindle_override, tool, fin, fin_failed;
     Address s_surface_speed, s_limit, s_radius;
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "canonical/spindle_value.hpp"
 #include "plc_core.hpp"
 
 namespace trunnion::plc {
@@ -21,6 +22,23 @@ constexpr std::int32_t whole_turn = 36000;     // 0.01 deg
 std::int32_t hundredths(double degrees) {
   const auto value = std::llround(std::clamp(degrees, -360.0, 360.0) * 100) % whole_turn;
   return static_cast<std::int32_t>(value < 0 ? value + whole_turn : value);
+}
+
+SpindleOrder spindle_order(std::uint32_t code, double value) {
+  constexpr std::int32_t master = 1, integral = 2, angle = 3;
+  constexpr std::int32_t none = 0, active = 1, frozen = 2;
+  if (code == canonical::order_angle) return {angle, 0, hundredths(value)};
+  if (code >= canonical::order_master && code - canonical::order_master < canonical::most_spindles) {
+    const double number = std::clamp(value - canonical::master_address + 1, 0.0, double{spindle_count});
+    return {master, static_cast<std::int32_t>(code - canonical::order_master + 1),
+            static_cast<std::int32_t>(std::lround(number))};
+  }
+  if (code >= canonical::order_integral && code - canonical::order_integral < canonical::most_spindles)
+    return {integral, static_cast<std::int32_t>(code - canonical::order_integral + 1),
+            value > 0   ? active
+            : value < 0 ? frozen
+                        : none};
+  return {};
 }
 
 void PlcCore::find_spindles() {

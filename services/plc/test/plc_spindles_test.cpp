@@ -2,6 +2,8 @@
 // Angles, gears and couplings of spindles: registers into outputs, and what the drive says into registers.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "core_bench.hpp"
 
 namespace trunnion::plc::spindles_test {
@@ -169,6 +171,43 @@ idl::stream::SpindleState slave(SpindleCondition condition) {
   state.condition = condition;
   state.master = 0;
   return state;
+}
+
+TEST(Spindles, AnOrderIsItsSpindleAndAWholeNumber) {
+  const auto registers = [](std::uint32_t code, double value) {
+    const auto order = spindle_order(code, value);
+    return std::array{order.order, order.spindle, order.value};
+  };
+  using Order = std::array<std::int32_t, 3>;
+  EXPECT_EQ(registers(94124, 27), (Order{1, 1, 4}));
+  EXPECT_EQ(registers(94127, -1), (Order{1, 4, 0}));
+  EXPECT_EQ(registers(98025, 500), (Order{2, 2, 1}));
+  EXPECT_EQ(registers(98025, -500), (Order{2, 2, 2}));
+  EXPECT_EQ(registers(98025, 0), (Order{2, 2, 0}));
+  EXPECT_EQ(registers(0, -90), (Order{3, 0, 27000}));
+  EXPECT_EQ(registers(91024, 0), (Order{0, 0, 0}));
+}
+
+TEST(Spindles, AnOrderIsCarriedOutByTheProgramsThatKnowOne) {
+  Bench lathe("lathe");
+  lathe.spindles.resize(2);
+  for (auto& state : lathe.spindles) state.master = -1, state.homed = true;
+  lathe.feedback();
+  lathe.request(AuxiliaryKind::E, 94125, 24);
+  EXPECT_EQ(value_of(lathe, "e_order", 0), 1);
+  EXPECT_EQ(value_of(lathe, "e_spindle", 0), 2);
+  EXPECT_EQ(value_of(lathe, "e_value", 0), 1);
+  ASSERT_TRUE(lathe.done());
+  EXPECT_FALSE(lathe.finished.back().failed);
+  const auto couplings = lathe.core.outputs().spindle_couplings;
+  ASSERT_EQ(couplings.size(), 1u);
+  EXPECT_EQ(couplings[0].slave, 1);
+  EXPECT_FALSE(couplings[0].reverse);
+
+  Bench other;
+  other.request(AuxiliaryKind::E, 94125, 24);
+  ASSERT_TRUE(other.done());
+  EXPECT_TRUE(other.finished.back().failed);
 }
 
 // Time runs on until the drive says so: the main task runs every 10 ms.

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "parameter_store/tool_tables.hpp"
 #include "reading.hpp"
@@ -275,6 +277,23 @@ TEST(ChannelSetup, ExternalParametersOfNumAreThoseOfTheSpindles) {
   EXPECT_EQ(setup.external_parameter(90370), 1500);
   EXPECT_EQ(setup.external_parameter(90323), std::nullopt) << "the machine has no fourth spindle";
   EXPECT_EQ(setup.external_parameter(91124), std::nullopt) << "its state is not known when the text is read";
+  EXPECT_EQ(setup.external_parameter(98024), 500) << "10a976, the default";
+  EXPECT_EQ(setup.external_parameter(90360), 0);
+
+  using Changes = std::vector<std::pair<std::uint32_t, double>>;
+  const auto changes = [&](std::uint32_t number, double value) {
+    const auto all = setup.external_changes(number, value);
+    Changes list;
+    for (std::size_t i = 0; i < all.count; ++i) list.emplace_back(all.list[i].number, all.list[i].value);
+    return list;
+  };
+  EXPECT_EQ(changes(90320, 400), (Changes{{first + 975, 400}}));
+  // 65536 parts are a revolution.
+  EXPECT_NEAR(changes(90310, 32768).at(0).second, 180, 1e-9);
+  EXPECT_EQ(changes(90360, 1000), (Changes{{first + 977, 1}, {first + 971, 1}}));
+  EXPECT_EQ(changes(90360, 1), (Changes{{first + 977, 0}, {first + 971, 1}}));
+  EXPECT_EQ(changes(90360, 0), (Changes{{first + 977, 0}, {first + 971, 0}}));
+  EXPECT_TRUE(changes(90323, 1).empty());
 }
 
 }  // namespace

@@ -205,6 +205,7 @@ std::vector<Wrong> wrong_programs() {
       {variable_unknown, "#1=#4099", 1, 4, ": #4099"},
       {variable_unknown, "#1=AR[#60]", 1, 4, ": AR"},
       {variable_read_only, "#5001=1", 1, 1, ": #5001"},
+      {spindle_without_mark, "#4822=1", 1, 1, ": #4822, spindle 1"},
       {variable_value, "#3006=-1", 1, 1, ": #3006"},
       {variable_value, "#2601=-1", 1, 1, ": #2601"},
       {variable_unknown, "#5231=1", 1, 1, ": #5231"},

@@ -44,10 +44,11 @@ struct Stepper {
   /// The next command, end or alarm; working when the program goes on without one.
   Step next(Command& command) {
     Step step = Step::pending;
-    while (step == Step::pending || step == Step::position || step == Step::answer) {
+    while (step == Step::pending || step == Step::position || step == Step::answer || step == Step::value) {
       step = interpreter.next(command);
       if (step == Step::position) interpreter.set_position(skip);
       if (step == Step::answer) interpreter.answer(0);
+      if (step == Step::value) interpreter.give_value(static_cast<double>(values++ % 3));
     }
     if (step == Step::command && command.kind == CommandKind::skip) skip = command.target;
     return step;
@@ -55,6 +56,7 @@ struct Stepper {
   ChunkedSource source;
   Interpreter interpreter;
   AxisValues skip{};
+  unsigned values = 0;
 };
 
 void interpret(const std::uint8_t* data, std::size_t size, ProgramDialect dialect) {

@@ -83,6 +83,12 @@ struct TestMachine : Environment {
     const auto found = external.find(number);
     return found == external.end() ? std::nullopt : std::optional(found->second);
   }
+  /// E90330 is parameter 100330, and so on.
+  ParameterChanges external_changes(std::uint32_t number, double value) const override {
+    ParameterChanges changes;
+    if (external.count(number) != 0) changes.list[changes.count++] = {100000 + number % 1000, value};
+    return changes;
+  }
   AngleMCodes angle_m_codes() const override { return angle_codes; }
   /// The table turns a direction d of the part to R1 R2 d, which must be +Z: A -(tilt), C so that d points to
   /// -Y or +Y of the machine; of the two solutions the one with the smaller way of C, or C as chosen.
@@ -200,6 +206,7 @@ inline Interpretation run(Environment& machine, TextSource& text, const AxisValu
     if (result.last == Step::command) result.commands.push_back(command);
     if (result.last == Step::position) interpreter.set_position(result.commands.back().target);
     if (result.last == Step::answer) interpreter.answer(0);
+    if (result.last == Step::value) interpreter.give_value(0);
   } while (result.last != Step::end && result.last != Step::alarm && result.commands.size() < most);
   result.alarm = interpreter.alarm();
   result.modal = interpreter.modal();
@@ -239,9 +246,9 @@ struct SlowSource : TextSource {
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid",   "line",  "arc",  "dwell", "T",   "S",
-                                          "M",       "frame", "end",  "skip",  "tap", "table",
-                                          "message", "cycle", "home", "thread"};
+  static constexpr const char* kinds[] = {"rapid",   "line",  "arc",  "dwell",  "T",    "S",
+                                          "M",       "frame", "end",  "skip",   "tap",  "table",
+                                          "message", "cycle", "home", "thread", "read", "order"};
   const auto number = [](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
@@ -314,9 +321,13 @@ inline std::string brief(const Command& command) {
       values();
       if (command.value != 0) text += " F" + number(command.value);
       break;
+    case CommandKind::spindle_order:
+      text += " " + std::to_string(command.number) + " " + number(command.value);
+      break;
     case CommandKind::message:
     case CommandKind::cycle:
     case CommandKind::end:
+    case CommandKind::read:
       text += " " + std::to_string(command.number);
       break;
   }

@@ -352,6 +352,57 @@ TEST_F(Flow, ASkipMoveIsPushedByTheCallerAndItsResultComesBeforeTheNextBlock) {
   EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::not_resumable));
 }
 
+// read 1: spindle 2 homed. The wait of 10 ms is 10 cycles of motion at rest.
+TEST_F(Flow, AValueOfASpindleIsReadBehindAWaitAtRestAndARestartReadsItAgain) {
+  const std::string program = "G90 F6000\nG1 X10\nWHILE #4802 EQ 0\nENDW\n#500=#4842\nG1 X20\nM30\n";
+  start(program);
+  std::vector<double> values = {0, 0, 0, 1, 500};
+  for (const double value : values) {
+    ASSERT_EQ(run(), FlowState::command);
+    ASSERT_EQ(flow.pending().kind, CommandKind::read);
+    EXPECT_EQ(x(), 10);
+    const auto cycles = setpoints.size();
+    ASSERT_EQ(flow.push_pending(), FlowState::full);
+    EXPECT_EQ(moves.back().kind, CommandKind::dwell);
+    while (!trajectory->at_rest()) setpoints.push_back(trajectory->step(1, 1, false));
+    EXPECT_GE(setpoints.size() - cycles, 10u);
+    flow.value_read(value);
+  }
+  EXPECT_EQ(run(), FlowState::command);
+  EXPECT_EQ(flow.pending().kind, CommandKind::end);
+  EXPECT_EQ(flow.variables().kept[0].number, 500);
+  ASSERT_EQ(flow.skips().size(), 3u) << "equal ones behind each other are one";
+  EXPECT_EQ(flow.skips()[0].touched[language::X], 3);
+
+  // Command 1 is the line to 10, 2 to 6 are the readings, 7 the line to 20: half of it is left.
+  Entry entry;
+  entry.restart = {7, 0.5, {15}};
+  start(program, entry);
+  ASSERT_EQ(run(), FlowState::command);
+  EXPECT_EQ(flow.pending().kind, CommandKind::end);
+  EXPECT_EQ(flow.variables().kept[0].number, 500);
+  EXPECT_EQ(flow.skips().size(), 3u);
+
+  // In the third reading: what was read in it and behind it is void.
+  entry.restart = {4, 0, {10}};
+  start(program, entry);
+  ASSERT_EQ(run(), FlowState::command);
+  ASSERT_EQ(flow.pending().kind, CommandKind::read);
+  ASSERT_EQ(flow.skips().size(), 1u);
+  EXPECT_EQ(flow.skips()[0].touched[language::X], 2);
+
+  entry.restart = {7, 0.5, {15}};
+  flow.set_skips({});
+  start(program, entry);
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::not_resumable));
+  Entry line;
+  line.line = 6;
+  start(program, line);
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_text(), "6: line 3 reads the state of a spindle, and what follows depends on it");
+}
+
 // The reference position is 0, and the drive has found X at 3.25.
 TEST_F(Flow, ASearchForReferencesEndsWhereTheDriveSaysAndARestartPassesOverIt) {
   const std::string program = "G90 F6000\nG1 X10\nG28.2 X0\nG91 G1 X1\nM30\n";

@@ -119,6 +119,21 @@ TEST_F(Reading, ACycleOfAnotherServiceHasNoParts) {
   EXPECT_EQ(commands[1].target[language::X], 20);
 }
 
+TEST_F(Reading, SpindlesAreHomedAndSynchronized) {
+  EXPECT_EQ(read("WHILE #4801 EQ 0\nM3\nENDW\n#4822=1\nWHILE #4812 EQ 0\nENDW\nG0 X1\nM30\n"), Ending::end);
+  // Read: 4801, both marks of 4822, 4812.
+  using language::CommandKind;
+  const CommandKind kinds[] = {
+      CommandKind::read, CommandKind::read,  CommandKind::read, CommandKind::spindle_order,
+      CommandKind::read, CommandKind::rapid, CommandKind::end};
+  ASSERT_EQ(commands.size(), std::size(kinds));
+  for (std::size_t i = 0; i < commands.size(); ++i) EXPECT_EQ(commands[i].kind, kinds[i]) << i;
+  EXPECT_EQ(moves[0].kind, CommandKind::dwell);
+  ReadingOptions options;
+  options.most_idle_reads = 100;
+  EXPECT_EQ(read("WHILE #4812 EQ 1\nENDW\nM30\n", options), Ending::idle);
+}
+
 TEST_F(Reading, EndsWhereAProgramWouldRepeatForEver) {
   EXPECT_EQ(read("G90 F100\nN1 G0 X1\nX2\nGOTO 1\n"), Ending::repeats);
   EXPECT_EQ(reader->repeats_from(), 2u);
