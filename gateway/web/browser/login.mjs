@@ -146,8 +146,10 @@ function work(page, url) {
   };
 }
 
-async function timeOut(page, url, words) {
+/** `finish` ends the work in the session: what the page has asked for before is answered within it. */
+async function timeOut(page, url, words, finish) {
   await settled(page);
+  await finish();
   const now = () => performance.now() / 1000;
   const { request } = page.context();
   const asked = now();
@@ -181,8 +183,7 @@ async function inChinese(browser, url) {
   await page.getByRole("note").filter({ hasText: words.operator }).waitFor();
   check("Chinese: an operator reads why a work offset is dark", await page.getByLabel("G54 X").isDisabled());
   await shot(page, "login-chinese");
-  await finish();
-  await timeOut(page, url, words);
+  await timeOut(page, url, words, finish);
   await logIn(page, words, "ann", "password of ann");
   await page.getByRole("button", { name: `${words.logout} ann` }).waitFor();
   await logOut(page, words, "ann");
@@ -199,8 +200,7 @@ await runTest(async (browser, url) => {
   await first(page, english);
   await operator(page, english);
   await setter(page, english);
-  await finish();
-  await timeOut(page, url, english);
+  await timeOut(page, url, english, finish);
   // A browser logs every refused request: those before the login and after the end of a session.
   const others = page.complaints.filter((text) => !/401|WebSocket/.test(text));
   check(`the page has no errors ${others}`, others.length === 0);
