@@ -230,6 +230,15 @@ class Cluster {
            }) &&
            until([&] { return state(channel) == RunState::RUNNING; });
   }
+  /// Goes on as an operator does, whenever the channel is stopped, to the end of the program.
+  bool finish_going_on(std::uint16_t channel = 0, double seconds = 60) {
+    return until(
+        [&] {
+          if (state(channel) == RunState::HELD || state(channel) == RunState::INTERRUPTED) go_on(channel);
+          return state(channel) == RunState::IDLE;
+        },
+        seconds);
+  }
   void reset_alarms() { resets_->write({1, ++resets_sent_, 65535}); }
 
   std::map<std::uint16_t, idl::channel::ChannelState> channels;

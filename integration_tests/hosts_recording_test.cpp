@@ -78,8 +78,8 @@ TEST_F(Hosts, ARecordingOfARunWithAnInterruptionIsVerifiedOrNamesIt) {
     EXPECT_TRUE(cluster.until([&] { return cluster.channels[0].line >= first_sweep; })) << cluster.told();
     cut_off_motion(hosts, cluster);
     EXPECT_TRUE(cluster.until([&] { return cluster.state() != RunState::RUNNING; })) << cluster.told();
-    EXPECT_TRUE(cluster.go_on()) << cluster.told();
-    EXPECT_TRUE(cluster.finish()) << cluster.told();
+    // The alarm of the host that was cut off may reach the channel after the start, and holds it once more.
+    EXPECT_TRUE(cluster.finish_going_on()) << cluster.told();
   }
   hosts.leave();
   std::printf("%s\n", recorder.stop().c_str());
