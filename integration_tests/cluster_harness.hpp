@@ -239,6 +239,17 @@ class Cluster {
         },
         seconds);
   }
+  /// After a kill: resets until nothing is left that could stop another program. The drive owes the channel
+  /// no setpoint whose absence it could still report (110).
+  bool begin_anew(std::uint16_t channel = 0) {
+    client_->channel(channel, CommandKind::RESET);
+    return until([&] {
+      if (!active_alarms().empty()) reset_alarms();
+      return state(channel) == RunState::IDLE && active_alarms().empty() &&
+             std::none_of(feedback.channels.begin(), feedback.channels.end(),
+                          [](const auto& echo) { return echo.active; });
+    });
+  }
   void reset_alarms() { resets_->write({1, ++resets_sent_, 65535}); }
 
   std::map<std::uint16_t, idl::channel::ChannelState> channels;

@@ -176,11 +176,7 @@ TEST_P(KilledTouchProbe, MeasuresTheRightCentreOrStopsWithAnAlarmAndMeasuresItAn
   else
     EXPECT_TRUE(stopped()) << cluster->told();
   // Begun anew it measures the same.
-  cluster->client().channel(0, CommandKind::RESET);
-  cluster->reset_alarms();
-  ASSERT_TRUE(cluster->until([&] {
-    return cluster->state() == RunState::IDLE && cluster->active_alarms().empty();
-  })) << cluster->told();
+  ASSERT_TRUE(cluster->begin_anew()) << cluster->told();
   ASSERT_TRUE(run("measure_sphere.nc")) << cluster->told();
   expect_centre(centre_x, centre_y, centre_z);
 }
@@ -201,11 +197,7 @@ TEST_F(TouchProbe, AMachineIsAsWarmAfterARestartOfItsDriveAndItsProbeGoesOnWithI
       ASSERT_TRUE(cluster->until([&] {
         return cluster->ready() && cluster->service("drive")->restarts > restarts;
       })) << cluster->told();
-      cluster->client().channel(0, CommandKind::RESET);
-      cluster->reset_alarms();
-      ASSERT_TRUE(cluster->until([&] {
-        return cluster->state() == RunState::IDLE && cluster->active_alarms().empty();
-      })) << cluster->told();
+      ASSERT_TRUE(cluster->begin_anew()) << cluster->told();
     }
     const double first = variable(500).value_or(0);
     ASSERT_TRUE(run("measure_sphere.nc")) << cluster->told();
