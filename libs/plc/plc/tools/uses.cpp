@@ -132,9 +132,12 @@ std::vector<SourceUse> Uses::of(const std::string& path) const {
     }
     return places.sorted();
   }
-  const auto dot = upper.find('.');
-  const auto next = dot == std::string::npos ? dot : upper.find_first_of(".[", dot + 1);
-  places.add_variable(upper.substr(0, next), "");
+  // A unit may have namespaces before its name.
+  for (auto dot = upper.find('.'), next = dot; !places.found(); dot = next) {
+    next = dot == std::string::npos ? dot : upper.find_first_of(".[", dot + 1);
+    places.add_variable(upper.substr(0, next), "");
+    if (next == std::string::npos) break;
+  }
   if (!places.found()) {
     const auto named = interface_registers().find(upper);
     if (named == interface_registers().end())
