@@ -5,8 +5,8 @@ over 127.0.0.1 only and for a limited time. Meanwhile a user holds and continues
 own, and a page shows the machine. It fails with a line that names attack, figure and limit. What holds on a busy computer
 holds; what does not counts when the computer let threads run, or cannot have caused it, and is measured again otherwise.
 Status 77: it was too busy five times. Standard library only."""
-import argparse, http.client, json, multiprocessing, os, pathlib, resource, shutil, signal, socket, struct, subprocess, sys
-import tempfile, threading, time
+import argparse, http.client, itertools, json, multiprocessing, os, pathlib, resource, shutil, signal, socket, struct
+import subprocess, sys, tempfile, threading, time
 
 sys.dont_write_bytecode = True  # leaves nothing in the tree
 import hostile_attacks
@@ -115,7 +115,10 @@ def memory(pid):
 
 def few_descriptors(pid, left):
     before = resource.prlimit(pid, resource.RLIMIT_NOFILE)
-    resource.prlimit(pid, resource.RLIMIT_NOFILE, (max(map(int, os.listdir(f"/proc/{pid}/fd"))) + 1 + left, before[1]))
+    used = set(map(int, os.listdir(f"/proc/{pid}/fd")))
+    # One that it was given by whoever started it may have a high number, so the free ones are counted.
+    limit = next(itertools.islice((n + 1 for n in itertools.count() if n not in used), left - 1, None))
+    resource.prlimit(pid, resource.RLIMIT_NOFILE, (limit, before[1]))
     return before
 
 

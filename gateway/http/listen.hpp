@@ -2,6 +2,7 @@
 // Ports of TCP that are listened on, and the file descriptors that are kept for others.
 #pragma once
 
+#include <fcntl.h>
 #include <sys/resource.h>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -28,12 +29,15 @@ inline void listen_on(boost::asio::ip::tcp::acceptor& acceptor, const std::strin
                              error.message());
 }
 
-/// Whether a connection has one of the last `reserve` file descriptors that the process may have: the system
-/// gives the lowest that is free.
-inline bool is_of_reserve(boost::asio::ip::tcp::socket& socket, rlim_t reserve) {
+/// How many file descriptors are missing from `reserve` free ones after that of a new connection. The system
+/// gives the lowest that is free, so those that are free lie above it.
+inline rlim_t missing_from_reserve(boost::asio::ip::tcp::socket& socket, rlim_t reserve) {
   rlimit files{};
-  return getrlimit(RLIMIT_NOFILE, &files) == 0 &&
-         static_cast<rlim_t>(socket.native_handle()) + reserve >= files.rlim_cur;
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return 0;
+  for (auto file = static_cast<rlim_t>(socket.native_handle()) + 1; reserve > 0 && file < files.rlim_cur;
+       ++file)
+    if (fcntl(static_cast<int>(file), F_GETFD) == -1) --reserve;
+  return reserve;
 }
 
 }  // namespace trunnion::gateway

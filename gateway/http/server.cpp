@@ -3,6 +3,7 @@
 
 #include <pthread.h>
 
+#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <stdexcept>
@@ -60,7 +61,11 @@ struct HttpServer::Inside {
   }
 
   void admit(tcp::socket socket) {
-    if (!make_room(is_of_reserve(socket, descriptors_for_others))) {
+    // Others may have taken some of the reserve since the last connection, so as many close as are missing.
+    auto missing = missing_from_reserve(socket, descriptors_for_others + transferring());
+    const bool has_room = make_room(missing > 0);
+    while (has_room && missing > 1 && make_room(true)) --missing;
+    if (!has_room) {
       // What has arrived is read meanwhile.
       pause.expires_after(std::chrono::milliseconds(1));
       pause.async_wait([this, socket = std::move(socket)](const boost::system::error_code& stopped) mutable {
@@ -75,6 +80,14 @@ struct HttpServer::Inside {
     sessions.push_back(session);
     session->start();
     accept();
+  }
+
+  /// Sessions for which another thread may just be about to open a file.
+  rlim_t transferring() const {
+    return static_cast<rlim_t>(std::ranges::count_if(sessions, [](const auto& session) {
+      const auto one = session.lock();
+      return one && one->connection().activity == Activity::transferring;
+    }));
   }
 
   /// Whether there is some now. When file descriptors are short, a stream may give way, too.

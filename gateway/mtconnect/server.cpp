@@ -212,7 +212,7 @@ struct Server::Inside {
   void accept() {
     acceptor.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
       if (error == net::error::operation_aborted) return;
-      make_room(error || is_of_reserve(socket, descriptors_for_http) ? 1 : most_sessions);
+      make_room(error || missing_from_reserve(socket, descriptors_for_http) > 0 ? 1 : most_sessions);
       if (!error) {
         boost::system::error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);

@@ -136,12 +136,16 @@ TEST_F(Gateway, TheOldestStreamOfThePeerWithMostGivesWayToANewOne) {
   EXPECT_EQ(answer_by(page, {{"order", 2}, {"path", "/api/panel/emergency-stop"}})["status"], 200);
 }
 
-/// The process may open `more` files than it has.
+/// The process may open `more` files than it has. One that it was given by whoever started it may have a high
+/// number, so the free ones are counted.
 void limit_files(pid_t process, rlim_t more) {
-  rlim_t last = 0;
+  std::set<rlim_t> used;
   for (const auto& file : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/fd"))
-    last = std::max<rlim_t>(last, std::stoul(file.path().filename()));
-  const rlimit files{last + 1 + more, last + 1 + more};
+    used.insert(std::stoul(file.path().filename()));
+  rlim_t limit = 0;
+  for (; more > 0; ++limit)
+    if (!used.contains(limit)) --more;
+  const rlimit files{limit, limit};
   ASSERT_EQ(prlimit(process, RLIMIT_NOFILE, &files, nullptr), 0);
 }
 
@@ -159,6 +163,20 @@ TEST_F(Gateway, ConnectionsThatHoldTheFileDescriptorsGiveWayToAStop) {
     EXPECT_EQ(post("/api/panel/emergency-stop").status, 200);
     EXPECT_EQ(get("/").status, 200) << "a file of the page is opened, too";
   }
+}
+
+// A download holds its file beside its connection, so the reserve shrinks by one with each.
+TEST_F(Gateway, DownloadsThatHoldTheFileDescriptorsGiveWayToThePage) {
+  std::filesystem::create_directories(state_ + "/recordings");
+  std::ofstream(state_ + "/recordings/large.mcap") << std::string(8 << 20, ' ');  // the kernel takes less
+  limit_files(process_->pid(), 24);
+  HeldConnections held(port_);
+  for (int i = 0; i < 24; ++i) held.open("");
+  for (int i = 0; i < 24; ++i) {
+    held.open("GET /api/recordings/large.mcap HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+    EXPECT_EQ(get("/").status, 200) << "beside " << i << " downloads";
+  }
+  EXPECT_EQ(post("/api/panel/emergency-stop").status, 200);
 }
 
 TEST_F(Gateway, AStopComesByTheStreamWithoutANewConnection) {
