@@ -16,6 +16,7 @@
 #include "cluster/child_process.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/cluster_locks.hpp"
 #include "commands.hpp"
 #include "service/network.hpp"
 #include "standard_output.hpp"
@@ -143,6 +144,7 @@ int record(const Common& common, const std::string& file, bool force, const Reco
     if (!values[i].empty()) args.insert(args.end(), {recorder_options[i].name, values[i]});
   for (auto& argument : service::network_arguments(cluster.network)) args.push_back(std::move(argument));
   if (common.json) args.emplace_back("--json");
+  cluster::hold_recording(cluster.run.domain);
   cluster::replace_process(args);
   throw std::runtime_error(args[0] + ": cannot be started");
 }

@@ -6,13 +6,16 @@
 #include <stdexcept>
 #include <thread>
 
+#include "bus/registry.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/cluster_locks.hpp"
 #include "machine/roles.hpp"
 #include "storage/crc32.hpp"
 
 namespace trunnion::cluster {
 namespace {
 constexpr double timeout = 15;  // s for an answer
+constexpr std::chrono::seconds longest_match(5);
 constexpr std::uint16_t every_channel = 65535;
 // Commands run as the user of the cluster.
 constexpr std::uint8_t of_the_owner = machine::role::builder;
@@ -22,10 +25,31 @@ Client::Client(std::uint32_t domain) : Client(network_in(domain)) {}
 
 Client::Client(const bus::NetworkSettings& network)
     : bus_(bus::Vendor::cyclonedds, network),
+      recorded_(is_recorded(network.domain)),
       channel_(bus_, topics::channel_request, topics::channel_reply),
       program_(bus_, topics::program_request, topics::program_reply),
       parameter_(bus_, topics::parameter_request, topics::parameter_reply),
       panel_(bus_, topics::panel_request, topics::panel_reply) {}
+
+// Requests are not kept for late readers: a recorder that does not know of the writer yet would have the
+// reply to a request that it does not have. What lasts longer is another machine's recorder, or one that
+// ends.
+template <class Request, class Reply>
+void Client::await_recorder(service::RequestClient<Request, Reply>& requests, const char* topic) {
+  if (!recorded_) return;
+  const auto& readers = bus::find_topic(topic)->readers;
+  auto clusters = bus_.reader(topics::cluster);
+  idl::service::Cluster cluster;
+  const auto until = std::chrono::steady_clock::now() + longest_match;
+  for (int expected = 0; std::chrono::steady_clock::now() < until;
+       std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+    while (clusters.take(cluster))
+      expected = 1 + static_cast<int>(std::ranges::count_if(cluster.services, [&](const auto& service) {
+                   return service.pid != 0 && std::ranges::count(readers, service.service) > 0;
+                 }));
+    if (expected > 0 && requests.readers() >= expected) return;
+  }
+}
 
 void Client::channel(std::uint16_t channel, CommandKind command) {
   this->channel({.channel = channel, .command = command});
@@ -49,6 +73,7 @@ void Client::start_from_line(std::uint16_t channel, std::uint32_t line) {
 
 void Client::channel(ChannelRequest request) {
   request.role = of_the_owner, request.who = "command line";
+  await_recorder(channel_, "channel_request");
   const auto reply = channel_.call(request, timeout);
   if (!reply)
     throw std::runtime_error(
@@ -59,6 +84,7 @@ void Client::channel(ChannelRequest request) {
 }
 
 idl::program::ProgramReply Client::program(idl::program::ProgramRequest request) {
+  await_recorder(program_, "program_request");
   const auto reply = program_.call(std::move(request), timeout);
   if (!reply)
     throw std::runtime_error(service::silence("the program service", timeout, program_.connected()));
@@ -68,6 +94,7 @@ idl::program::ProgramReply Client::program(idl::program::ProgramRequest request)
 
 idl::parameters::ParameterReply Client::parameter(idl::parameters::ParameterRequest request) {
   request.role = of_the_owner;
+  await_recorder(parameter_, "parameter_request");
   const auto reply = parameter_.call(std::move(request), timeout);
   if (!reply)
     throw std::runtime_error(service::silence("the parameters service", timeout, parameter_.connected()));
@@ -86,6 +113,7 @@ idl::plc::PanelReply Client::panel(idl::plc::PanelRequestKind kind) {
         reply = {request.client, request.number, true, ""};
     return reply;
   };
+  await_recorder(panel_, "panel_request");
   const auto reply = panel_.call({.kind = kind}, timeout, held);
   if (!reply) throw std::runtime_error(service::silence("the PLC", timeout, panel_.connected()));
   if (!reply->accepted) throw std::runtime_error(reply->reason);

@@ -64,7 +64,11 @@ class Client {
   template <class T, class Condition>
   T first(const bus::Topic<T>& topic, double timeout, Condition condition);
 
+  template <class Request, class Reply>
+  void await_recorder(service::RequestClient<Request, Reply>& requests, const char* topic);
+
   bus::Bus bus_;
+  const bool recorded_;
   service::RequestClient<ChannelRequest, ChannelReply> channel_;
   service::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_;
   service::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> parameter_;

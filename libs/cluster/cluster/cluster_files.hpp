@@ -33,6 +33,8 @@ struct RunDirectory {
   std::string path() const;
   std::string pid_file() const { return path() + "/launcher.pid"; }
   std::string info_file() const { return path() + "/cluster.json"; }
+  /// Locked by those who record.
+  std::string recording_file() const { return path() + "/recording.lock"; }
   std::string log_file(const std::string& service) const { return path() + "/" + service + ".log"; }
   /// Process id of the launcher when it is alive.
   std::optional<int> launcher() const;

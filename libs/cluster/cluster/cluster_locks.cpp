@@ -166,6 +166,20 @@ std::optional<std::string> domain_holder(std::uint32_t domain, const std::string
   return "a process that ends";
 }
 
+// Not closed on exec, so the recorder has it.
+void hold_recording(std::uint32_t domain) {
+  const int file = open(RunDirectory{domain}.recording_file().c_str(), O_RDWR | O_CREAT, 0600);
+  if (file >= 0) flock(file, LOCK_SH);
+}
+
+bool is_recorded(std::uint32_t domain) {
+  const int file = open(RunDirectory{domain}.recording_file().c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool held = flock(file, LOCK_EX | LOCK_NB) != 0;
+  close(file);
+  return held;
+}
+
 std::vector<int> leftover_services(const std::string& state_directory, std::uint32_t domain) {
   std::vector<int> found;
   std::error_code ignored;

@@ -56,6 +56,12 @@ class DomainLock {
 /// Who holds the domain on this computer now; nothing when nobody does.
 std::optional<std::string> domain_holder(std::uint32_t domain, const std::string& host = "");
 
+/// Says that a recorder runs in the domain for as long as this process lives, also when another program
+/// replaces it. Nothing happens where no cluster of this user runs on this computer.
+void hold_recording(std::uint32_t domain);
+/// A process holds that.
+bool is_recorded(std::uint32_t domain);
+
 /// Services of a cluster whose launcher is gone: processes of this user that were started with this state
 /// directory or domain as services.
 std::vector<int> leftover_services(const std::string& state_directory, std::uint32_t domain);

@@ -67,6 +67,9 @@ class RequestClient {
   /// How many processes answer requests of this kind and are connected with this one.
   int connected() { return std::min(writer_.matched(), reader_.matched()); }
 
+  /// How many read the requests: those that answer, and recorders.
+  int readers() { return writer_.matched(); }
+
   /// Blocks up to `timeout` seconds: for command-line tools. `elsewhere` may know the reply of the request
   /// too.
   std::optional<Reply> call(Request request, double timeout,

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a client reads of a cluster is not older than what it was answered.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <future>
 
 #include "cluster/client.hpp"
+#include "cluster/cluster_files.hpp"
+#include "cluster/cluster_locks.hpp"
 #include "testing_support/eventually.hpp"
 
 namespace trunnion::cluster {
@@ -73,6 +78,41 @@ TEST(Client, GivesAStateThatIsNotOlderThanTheReply) {
   }
   over = true;
   answering.join();
+}
+
+// A recording with the reply to a request that it does not have cannot be verified.
+TEST(Client, WaitsForTheRecorderBeforeItsFirstRequest) {
+  const RunDirectory run{client_domain};
+  run.make();
+  const pid_t recorder = fork();
+  if (recorder == 0) {
+    hold_recording(client_domain);
+    for (;;) pause();
+  }
+  EXPECT_TRUE(eventually([] { return is_recorded(client_domain); }));
+
+  bus::Bus channel(bus::Vendor::cyclonedds, {client_domain});
+  auto clusters = channel.writer(topics::cluster);
+  idl::service::Cluster cluster;
+  cluster.services = {{1, "channel", 0, "", 1, 0, true}};
+  clusters.write(cluster);
+  service::RequestServer<ChannelRequest, ChannelReply> server(channel, topics::channel_request,
+                                                              topics::channel_reply);
+  Client client(bus::NetworkSettings{client_domain});
+  auto answered = std::async(std::launch::async, [&] { client.channel(0, CommandKind::RESET); });
+  bus::Bus late(bus::Vendor::cyclonedds, {client_domain});
+  auto recorded = late.reader(topics::channel_request);
+  ChannelRequest request, copy;
+  EXPECT_TRUE(eventually([&] { return server.take(request); }));
+  EXPECT_TRUE(eventually([&] { return recorded.take(copy); }));
+  EXPECT_EQ(copy.number, request.number);
+  server.reply(request, {0, 0, true, 0, "", 0});
+  answered.get();
+
+  kill(recorder, SIGKILL);
+  waitpid(recorder, nullptr, 0);
+  EXPECT_FALSE(is_recorded(client_domain));
+  run.remove();
 }
 
 }  // namespace
