@@ -30,7 +30,8 @@ void write_recording(const std::string& file) {
   feedback.commanded.resize(batch * axes), feedback.actual.resize(batch * axes);
   for (feedback.first = 0; feedback.first < million; feedback.first += batch) {
     for (std::uint64_t i = 0; i < batch * axes; ++i) {
-      const auto cycle = static_cast<double>(feedback.first + i / axes);
+      const std::uint64_t row = i / axes;
+      const auto cycle = static_cast<double>(feedback.first + row);
       feedback.commanded[i] = 100 * std::sin(1e-3 * cycle + static_cast<double>(i % axes));
       feedback.actual[i] = feedback.commanded[i] - 0.01;
     }

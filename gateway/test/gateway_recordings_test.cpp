@@ -198,7 +198,7 @@ TEST_F(GatewayRecordings, OneWhoseRecorderHasEndedIsNotAnsweredAsWhole) {
   ASSERT_EQ(post("/api/recordings", {{"name", "cut.mcap"}}).status, 200);
   EXPECT_EQ(list()["problem"], "");
   kill(child_of(process_->pid()), SIGKILL);
-  ASSERT_TRUE(eventually([&] { return list()["recording"] == ""; }));
+  ASSERT_TRUE(eventually([&] { return list()["recording"].get<std::string>().empty(); }));
   EXPECT_THAT(list()["problem"].get<std::string>(), testing::ContainsRegex("^cut.mcap: .*ended by signal 9"));
   const auto stopped = post("/api/recordings/cut.mcap/stop");
   EXPECT_EQ(stopped.status, 409);
