@@ -100,9 +100,12 @@ TEST(Client, WaitsForTheRecorderBeforeItsFirstRequest) {
                                                               topics::channel_reply);
   Client client(bus::NetworkSettings{client_domain});
   auto answered = std::async(std::launch::async, [&] { client.channel(0, CommandKind::RESET); });
+  // It reads which services there are, so it waits.
+  EXPECT_TRUE(eventually([&] { return clusters.matched() == 1; }));
+  ChannelRequest request, copy;
+  EXPECT_FALSE(server.take(request));
   bus::Bus late(bus::Vendor::cyclonedds, {client_domain});
   auto recorded = late.reader(topics::channel_request);
-  ChannelRequest request, copy;
   EXPECT_TRUE(eventually([&] { return server.take(request); }));
   EXPECT_TRUE(eventually([&] { return recorded.take(copy); }));
   EXPECT_EQ(copy.number, request.number);
