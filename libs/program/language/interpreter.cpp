@@ -94,9 +94,9 @@ Step Interpreter::next(Command& command) {
   return Step::command;
 }
 
-// Not by a call, nor behind one.
+// Not by a call, nor behind one; nor to the begin of a line that waits for the value of a spindle.
 bool Interpreter::jumped_back(std::uint64_t from, std::size_t depth) const {
-  if (state_ != State::running || executor_.busy() || depth_ > depth) return false;
+  if (state_ != State::running || executor_.busy() || control_.needs_value() || depth_ > depth) return false;
   const auto offset = reader_.position().offset;
   return depth_ < depth ? offset != levels_[depth_].resume.offset : offset <= from;
 }

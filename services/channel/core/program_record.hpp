@@ -30,7 +30,7 @@ struct RunningProgram : LeftProgram {
   std::uint32_t parts = 0;       ///< machined since the count was set
   std::uint32_t tool = 0;        ///< in the spindle
   std::uint64_t tool_since = 0;  ///< cycle from which on the drive's snapshot knows of it
-  program_execution::TapInHole tap;
+  program_execution::TapInHole tap = {};
   bool operator==(const RunningProgram&) const = default;
 
   template <class Self, class Visit>

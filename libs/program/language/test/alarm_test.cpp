@@ -230,17 +230,25 @@ TestMachine machine_without_w() {
   return machine;
 }
 
+void expect_alarm(TestMachine machine, const Wrong& wrong) {
+  const Interpretation result = run(machine, wrong.program);
+  SCOPED_TRACE(wrong.program);
+  ASSERT_EQ(result.last, Step::alarm);
+  EXPECT_EQ(result.alarm.number, wrong.number) << result.alarm.text.data();
+  EXPECT_EQ(result.alarm.line, wrong.line);
+  EXPECT_EQ(result.alarm.column, wrong.column);
+  EXPECT_EQ(std::string(result.alarm.text.data()), std::string(alarm_text(wrong.number)) + wrong.word);
+}
+
 TEST(Alarm, PointsAtTheWordThatIsWrong) {
-  for (const Wrong& wrong : wrong_programs()) {
-    TestMachine machine = machine_without_w();
-    const Interpretation result = run(machine, wrong.program);
-    SCOPED_TRACE(wrong.program);
-    ASSERT_EQ(result.last, Step::alarm);
-    EXPECT_EQ(result.alarm.number, wrong.number) << result.alarm.text.data();
-    EXPECT_EQ(result.alarm.line, wrong.line);
-    EXPECT_EQ(result.alarm.column, wrong.column);
-    EXPECT_EQ(std::string(result.alarm.text.data()), std::string(alarm_text(wrong.number)) + wrong.word);
-  }
+  for (const Wrong& wrong : wrong_programs()) expect_alarm(machine_without_w(), wrong);
+}
+
+TEST(Alarm, ConstantSurfaceSpeedNeedsALimitOfTheSpeed) {
+  TestMachine machine = machine_without_w();
+  machine.highest_speed = 0;
+  expect_alarm(machine, {AlarmNumber::surface_speed_limit, "G96 S100", 1, 1, ": G96"});
+  expect_alarm(machine, {AlarmNumber::surface_speed_limit, "G92 S3000\nG96 S100\nG92 S0", 3, 5, ": S0"});
 }
 
 struct FailingSource : TextSource {
@@ -261,11 +269,12 @@ TEST(Alarm, TextThatCannotBeReadIsOne) {
 }
 
 TEST(Alarm, EveryNumberOfTheTableHasATest) {
-  // A channel gives the first six, the interpreter never does. The last two have tests of their own.
+  // A channel gives the first six, the interpreter never does. The last three have tests of their own.
   std::set<AlarmNumber> tested{AlarmNumber::not_resumable,      AlarmNumber::tapping_spindle_missing,
                                AlarmNumber::thread_too_short,   AlarmNumber::axes_without_reference,
                                AlarmNumber::homing_axis_locked, AlarmNumber::tap_removal_thread,
-                               AlarmNumber::text_unreadable,    AlarmNumber::homed_unknown};
+                               AlarmNumber::text_unreadable,    AlarmNumber::homed_unknown,
+                               AlarmNumber::surface_speed_limit};
   for (const Wrong& wrong : wrong_programs()) tested.insert(wrong.number);
   for (const AlarmText& entry : alarm_texts) {
     // num_dialect_test.cpp has those of the NUM dialect.

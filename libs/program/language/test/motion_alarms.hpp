@@ -29,8 +29,6 @@ inline std::vector<WrongMotion> wrong_motion() {
       {codes_compete, "G28 G51.1 X0", 1, 5, ": G51.1"},
       {surface_speed_missing, "G96", 1, 1, ": G96"},
       {surface_speed_missing, "G96 S0", 1, 1, ": G96"},
-      {surface_speed_limit, "G96 S100", 1, 1, ": G96"},
-      {surface_speed_limit, "G92 S3000\nG96 S100\nG92 S0", 3, 5, ": S0"},
       {tool_vector_zero, "G43.5 H1\nG1 F1 I0 J0 K0", 2, 13, ": K0"},
       {tool_vector_opposite, "G43.5 H1\nG0 K-1", 2, 4, ": K-1"},
       {orientation_impossible, "G43.4 H1\nG68.2 X0 Y0 Z0 I90 J120 K-90\nG53.2", 3, 1,
