@@ -230,7 +230,7 @@ TestMachine machine_without_w() {
   return machine;
 }
 
-void expect_alarm(TestMachine machine, const Wrong& wrong) {
+void expect_alarm(TestMachine& machine, const Wrong& wrong) {
   const Interpretation result = run(machine, wrong.program);
   SCOPED_TRACE(wrong.program);
   ASSERT_EQ(result.last, Step::alarm);
@@ -241,7 +241,10 @@ void expect_alarm(TestMachine machine, const Wrong& wrong) {
 }
 
 TEST(Alarm, PointsAtTheWordThatIsWrong) {
-  for (const Wrong& wrong : wrong_programs()) expect_alarm(machine_without_w(), wrong);
+  for (const Wrong& wrong : wrong_programs()) {
+    TestMachine machine = machine_without_w();
+    expect_alarm(machine, wrong);
+  }
 }
 
 TEST(Alarm, ConstantSurfaceSpeedNeedsALimitOfTheSpeed) {
