@@ -222,7 +222,8 @@ class NameResolver {
     for (std::size_t i = 1; check_namespace(space, here, at); ++i) {
       const auto& text = namespaces_.at(space).text;
       if (i == parts.size()) {
-        diagnostics_.error(at, "'" + text + "' is a namespace: name what you mean of it, " + text + ".name");
+        auto message = "'" + text + "' is a namespace: name what you mean of it, ";
+        diagnostics_.error(at, message.append(text).append(".name"));
         return {};
       }
       const auto name = space + "." + parts[i].name;

@@ -133,11 +133,11 @@ std::vector<SourceUse> Uses::of(const std::string& path) const {
     return places.sorted();
   }
   // A unit may have namespaces before its name.
-  for (auto dot = upper.find('.'), next = dot; !places.found(); dot = next) {
-    next = dot == std::string::npos ? dot : upper.find_first_of(".[", dot + 1);
-    places.add_variable(upper.substr(0, next), "");
-    if (next == std::string::npos) break;
-  }
+  auto behind = upper.find('.');
+  do {
+    if (behind != std::string::npos) behind = upper.find_first_of(".[", behind + 1);
+    places.add_variable(upper.substr(0, behind), "");
+  } while (!places.found() && behind != std::string::npos);
   if (!places.found()) {
     const auto named = interface_registers().find(upper);
     if (named == interface_registers().end())
