@@ -16,6 +16,13 @@ struct RampSettings {
 
   /// The base speed is above 0 and not above the power speed, where they are in force.
   bool usable() const { return !speed_dependent || (base_speed > 0 && power_speed >= base_speed); }
+  bool operator==(const RampSettings&) const = default;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("acceleration", self.acceleration), visit("speed_dependent", self.speed_dependent);
+    visit("base_speed", self.base_speed), visit("power_speed", self.power_speed);
+  }
 };
 /// Of the spindle with a logical number.
 RampSettings ramp_settings(const machine::Parameters& parameters, std::uint16_t spindle);
