@@ -5,6 +5,7 @@
 // Homing and StreamWriter: motion. AuxiliaryHandshake, TableChange and CycleCall: what is asked of others.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <set>
@@ -193,6 +194,7 @@ class ChannelCore {
     constexpr bool reads = !std::is_const_v<Self>;
     if (reads || self.tool_since_ != 0) visit("tool_since", self.tool_since_);
     if (reads || self.tap_.lead != 0) visit("tap", self.tap_);
+    if (reads || self.synchronized_ != 0) visit("synchronized", self.synchronized_);
   }
 
  private:
@@ -367,6 +369,7 @@ class ChannelCore {
   ChannelBodies bodies_;
   SkipMove skip_;
   SpindleRead read_;
+  std::uint32_t synchronized_ = 0;  // spindles of the newest feedback, as synchronized_spindles()
   ExactStopCheck exact_stop_;
   Tapping tapping_;
   ThreadRun thread_;

@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves that are more than a path: those a skip input ends, those a spindle follows, and those that follow
 // one. Values of spindles, behind a wait.
+#include <cstddef>
+#include <cstdint>
+
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/axes.hpp"
 
 namespace trunnion::channel {
+namespace {
+
+/// In the feedback; `spindle`: its logical number.
+std::size_t column_of_spindle(std::uint16_t spindle, const machine::Parameters& parameters) {
+  std::size_t column = 0;
+  for (const auto& one : machine::spindles(parameters)) {
+    if (one.number == spindle) break;
+    ++column;
+  }
+  return column;
+}
+
+}  // namespace
 
 // The axes are at rest, and nothing is read ahead before the move has ended.
 void ChannelCore::begin_skip() {
@@ -47,6 +63,11 @@ void ChannelCore::begin_tapping() {
     flow().refuse_pending(language::AlarmNumber::tapping_spindle_missing);
     return;
   }
+  // A part may hold both: the path would turn one of them alone.
+  if (((synchronized_ >> column_of_spindle(*spindle.axis, *parameters_)) & 1u) != 0) {
+    flow().refuse_pending(language::AlarmNumber::tapping_spindle_synchronized);
+    return;
+  }
   const auto& stroke = flow().pending();
   const auto from = path().machine_position(), to = path().machine_of(stroke.target);
   if (stroke.out && tap_.contradicts(from, to, stroke.value)) {
@@ -86,11 +107,7 @@ void ChannelCore::cut_thread() {
   const auto& modal = flow().executing();
   const auto& settings = machine_.stream(virtual_time_);
   ThreadSpindle spindle;
-  const auto number = machine_.tapping_spindle().axis.value_or(0);
-  for (const auto& one : machine::spindles(*parameters_)) {
-    if (one.number == number) break;
-    ++spindle.column;
-  }
+  spindle.column = column_of_spindle(machine_.tapping_spindle().axis.value_or(0), *parameters_);
   spindle.speed = modal.spindle_speed;
   spindle.clockwise = modal.spindle_direction == language::SpindleDirection::cw;
   spindle.cycle_seconds = machine_.cycle_seconds();

@@ -13,6 +13,7 @@ void ChannelCore::on_feedback(const idl::stream::Feedback& feedback) {
   skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
   exact_stop_.on_feedback(feedback);
   thread_.on_feedback(feedback);
+  synchronized_ = synchronized_spindles(feedback);
   if (read_.active()) read_.on_feedback(feedback, motion_at_rest() && link.executed() >= link.next());
   remember_executed();
   if (first) handshake_.continue_numbers(link.epoch()), cycle_call_.continue_numbers(link.epoch());

@@ -2,6 +2,9 @@
 // Rigid tapping: the spindle's angle and the depth are one, whatever the speed does; what the operator may
 // do.
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "channel_fixture.hpp"
 #include "machine/alarm_constants.hpp"
@@ -347,6 +350,53 @@ TEST_F(Tap, AMachineWithoutASpindleRefusesItBeforeTheToolIsInTheHole) {
   EXPECT_EQ(events.back().alarm, &alarm::tapping_spindle_missing);
   ASSERT_FALSE(drive.rows.empty());
   EXPECT_EQ(drive.rows.back()[2], 2);
+}
+
+/// Of three spindles, of which `slave` follows `master`.
+auto synchronized(std::size_t slave, std::int8_t master, idl::stream::SpindleCondition condition) {
+  return [=](std::uint64_t) {
+    std::vector<idl::stream::SpindleState> states(3);
+    for (auto& state : states) state.master = -1, state.homed = true;
+    states[slave].master = master, states[slave].condition = condition;
+    return states;
+  };
+}
+
+// S is spindle 0. A part may be in the chucks of both: only one of them would follow the path.
+TEST_F(Tap, ASpindleThatFollowsOrLeadsAnotherOneRefusesItBeforeTheToolIsInTheHole) {
+  using idl::stream::SpindleCondition;
+  parameters->values[106000] = {0, "S2"}, parameters->values[106001] = {10, ""};
+  parameters->values[107000] = {0, "S3"}, parameters->values[107001] = {10, ""};
+  const auto refused = [&](const std::string& program) {
+    events.clear(), auxiliaries.clear();
+    start(program);
+    run();
+    EXPECT_EQ(core->run_state(), RunState::IDLE) << program;
+    return !events.empty() && events.back().alarm == &alarm::tapping_spindle_synchronized;
+  };
+  const std::string removal = "S200 G84.9 Z12 K1.25\nM30\n";
+  for (const auto condition :
+       {SpindleCondition::SPINDLE_SYNCHRONIZING, SpindleCondition::SPINDLE_SYNCHRONIZED})
+    for (const bool leads : {false, true}) {
+      drive = testing::FakeDrive(3);
+      drive.spindle_states = leads ? synchronized(2, 0, condition) : synchronized(0, 2, condition);
+      begin();
+      ASSERT_TRUE(refused(hole)) << leads;
+      EXPECT_EQ(events.back().text,
+                "part.nc:3: rigid tapping with a spindle that is synchronized with another one: end the "
+                "synchronization first");
+      EXPECT_EQ(drive.rows.back()[2], 2);
+      EXPECT_EQ(m_codes(), (std::vector<int>{3, 5})) << "both have stopped";
+      EXPECT_TRUE(refused(removal)) << leads;
+      EXPECT_EQ(drive.rows.back()[2], 2);
+      EXPECT_TRUE(coupled().empty());
+    }
+  drive = testing::FakeDrive(3);
+  drive.spindle_states = synchronized(1, 2, SpindleCondition::SPINDLE_SYNCHRONIZED);
+  begin();
+  EXPECT_FALSE(refused(hole)) << "two others";
+  EXPECT_FALSE(coupled().empty());
+  EXPECT_EQ(drive.rows.back()[2], 20);
 }
 
 TEST_F(Tap, AHoleBeyondTheTravelEndsTheProgramAboveIt) {
