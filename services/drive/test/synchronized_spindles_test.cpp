@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -250,14 +252,24 @@ TEST(SynchronizedSpindles, AMasterThatIsToFollowAnotherSpindleKeepsItsSlave) {
   EXPECT_EQ(shop.state(1).master, -1);
 }
 
+// The other spindle has its own order then: what keeps a path away from spindles that hold a part is the
+// channel.
 TEST(SynchronizedSpindles, ThePathOfEitherSpindleEndsIt) {
   for (const int tapping : {0, 1}) {
     Shop shop;
     shop.spindles.couple({following(1, 0)});
-    shop.run(100);
+    shop.spindles.demand_speeds({300, 100});
+    shop.run(1000);
     ASSERT_EQ(shop.state(1).master, 0);
-    shop.spindles.coupling(tapping).couple(0, shop.status[static_cast<std::size_t>(tapping)].angle);
+    EXPECT_NEAR(shop.row[1].speed, 300, 0.1);
+    const auto tap = static_cast<std::size_t>(tapping), other = 1 - tap;
+    const double angle = shop.status[tap].angle;
+    shop.spindles.coupling(tapping).couple(0, angle);
     shop.run(10);
+    EXPECT_TRUE(shop.row[tap].coupled);
+    EXPECT_EQ(shop.row[tap].angle, angle);
+    EXPECT_FALSE(shop.row[other].coupled);
+    EXPECT_EQ(shop.row[other].speed, other == 0 ? 300 : 100);
     ASSERT_EQ(shop.found.size(), 1u);
     EXPECT_EQ(shop.found[0].problem, Problem::follows_path);
     const auto event = event_of(shop.found[0], shop.spindles.axes());
@@ -288,23 +300,125 @@ TEST(SynchronizedSpindles, ASlaveThatSlipsByMoreThanHalfATurnIsAnAlarmAndGoesOnF
   EXPECT_EQ(shop.state(1).master, 0);
 }
 
-TEST(SynchronizedSpindles, ParametersWithoutAnAccelerationEndIt) {
+// A part may hold both: they keep the ramp of before, and can come to rest by it.
+TEST(SynchronizedSpindles, ParametersWithoutAnAccelerationCountWhenItHasEnded) {
+  for (const std::uint32_t spindle : {0u, 1u}) {
+    auto p = three_spindles();
+    Shop shop(p);
+    shop.spindles.couple({following(1, 0)});
+    shop.spindles.demand_speeds({300});
+    shop.run(1000);
+    p.values[105971 + 1000 * spindle] = {1, ""};  // the base speed is 0
+    shop.spindles.configure(p, period);
+    for (const double speed : {300.0, -500.0, 0.0}) {
+      shop.spindles.demand_speeds({speed});
+      shop.run(1000);
+      EXPECT_NEAR(shop.status[0].speed, speed, 1e-6) << spindle;
+      EXPECT_NEAR(shop.status[1].speed, speed, 0.1) << spindle;
+      EXPECT_NEAR(shop.beside(1, 0), 0, 1) << spindle;
+      EXPECT_EQ(shop.state(1).condition, SpindleCondition::SPINDLE_SYNCHRONIZED) << spindle;
+    }
+    EXPECT_TRUE(shop.found.empty());
+    shop.spindles.couple({});
+    shop.run(1);
+    shop.spindles.couple({following(1, 0)});
+    shop.run(10);
+    ASSERT_EQ(shop.found.size(), 1u);
+    EXPECT_EQ(shop.found[0].problem, Problem::no_acceleration);
+    EXPECT_EQ(event_of(shop.found[0], shop.spindles.axes()).text,
+              "Spindle S2 is not synchronized with Spindle S1: the acceleration of Spindle S" +
+                  std::to_string(spindle + 1) +
+                  " cannot be computed (alarm 182); withdraw the request, then give it again");
+    EXPECT_EQ(shop.state(1).master, -1);
+  }
+}
+
+// With 500 deg/s2 the slave gains 0.083 1/min in a period: 10 periods are not enough for 1000.
+TEST(SynchronizedSpindles, ParametersWithoutAnAccelerationEndItBeforeTheSlaveHasItsSpeed) {
+  auto p = three_spindles();
+  p.values[106036] = {500, ""};
+  Shop shop(p);
+  shop.spindles.demand_speeds({1000});
+  shop.run(1000);
+  shop.spindles.couple({following(1, 0)});
+  shop.run(10);
+  ASSERT_EQ(shop.state(1).master, 0);
+  p.values[106971] = {1, ""};
+  shop.spindles.configure(p, period);
+  shop.run(10);
+  ASSERT_EQ(shop.found.size(), 1u);
+  EXPECT_EQ(shop.found[0].problem, Problem::no_acceleration);
+  EXPECT_EQ(shop.state(1).master, -1);
+  EXPECT_EQ(shop.row[0].speed, 1000);
+  EXPECT_EQ(shop.row[1].speed, 0);
+}
+
+TEST(SynchronizedSpindles, ContinuesWithTheRampThatItHasKept) {
   auto p = three_spindles();
   Shop shop(p);
   shop.spindles.couple({following(1, 0)});
-  shop.spindles.demand_speeds({300});
+  shop.spindles.demand_speeds({1000});
   shop.run(1000);
-  p.values[106971] = {1, ""};  // the base speed is 0
+  EXPECT_FALSE(snapshot::written(shop.spindles).at("synchronization").contains("ramps"));
+  p.values[105971] = p.values[106971] = {1, ""};
   shop.spindles.configure(p, period);
+  shop.run(10);
+  const auto state = bus::Json::parse(bus::text_of(snapshot::written(shop.spindles)));
+  Shop other(p);
+  snapshot::read(state, other.spindles);
+  other.machines = shop.machines, other.status = shop.status;
+  shop.spindles.demand_speeds({}), other.spindles.demand_speeds({});
+  for (int i = 0; i < 1000; ++i) {
+    shop.run(1), other.run(1);
+    for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(other.row[k].speed, shop.row[k].speed) << i;
+  }
+  EXPECT_NEAR(other.status[0].speed, 0, 1e-6);
+  EXPECT_NEAR(other.status[1].speed, 0, 0.1);
+}
+
+// The gear of the slave has 1000, its 10a948 1500 1/min.
+TEST(SynchronizedSpindles, AMasterTurnsNoFasterThanItsSlavesMay) {
+  auto p = three_spindles();
+  p.values[106985] = {1000, ""}, p.values[106948] = {1500, ""};
+  Shop shop(p);
+  shop.spindles.couple({following(1, 0, true)});
+  shop.spindles.demand_speeds({2000});
+  shop.spindles.engage_gears({0, 1});
+  shop.run(3000);
+  EXPECT_EQ(shop.status[0].speed, 1000);
+  EXPECT_NEAR(shop.status[1].speed, -1000, 0.1);
+  EXPECT_EQ(shop.state(0).condition, SpindleCondition::SPINDLE_AT_SPEED);
+  shop.spindles.engage_gears({});
+  shop.run(3000);
+  EXPECT_EQ(shop.status[0].speed, 1500);
+  EXPECT_NEAR(shop.status[1].speed, -1500, 0.1);
+  shop.spindles.demand_speeds({-2000});
+  shop.run(3000);
+  EXPECT_EQ(shop.status[0].speed, -1500);
+  shop.spindles.couple({});
+  shop.run(3000);
+  EXPECT_EQ(shop.status[0].speed, -2000);
+  EXPECT_TRUE(shop.found.empty());
+}
+
+// The slave is the faster one: it would meet the master at 1818 1/min. Behind the ramp the control makes up
+// for at most half a turn, with 250 1/min.
+TEST(SynchronizedSpindles, ASlaveDoesNotRunUpAboveItsHighestSpeed) {
+  auto p = three_spindles();
+  p.values[106036] = {200000, ""}, p.values[106948] = {1000, ""};
+  Shop shop(p);
+  shop.spindles.demand_speeds({2000});
   shop.run(1000);
-  ASSERT_EQ(shop.found.size(), 1u);
-  EXPECT_EQ(shop.found[0].problem, Problem::no_acceleration);
-  EXPECT_EQ(
-      event_of(shop.found[0], shop.spindles.axes()).text,
-      "Spindle S2 is not synchronized with Spindle S1: the acceleration of Spindle S2 cannot be computed "
-      "(alarm 182); withdraw the request, then give it again");
-  EXPECT_EQ(shop.status[0].speed, 300);
-  EXPECT_EQ(shop.status[1].speed, 0);
+  ASSERT_EQ(shop.status[0].speed, 2000);
+  shop.spindles.couple({following(1, 0)});
+  double most = 0;
+  for (int i = 0; i < 5000; ++i) {
+    shop.run(1);
+    most = std::max(most, shop.row[1].speed);
+  }
+  EXPECT_LE(most, 1250);
+  EXPECT_NEAR(shop.status[1].speed, 1000, 0.1);
+  EXPECT_EQ(shop.state(1).condition, SpindleCondition::SPINDLE_SYNCHRONIZED);
 }
 
 // Two spindles with a lag of 60 ms, of which the second turns 0.1 % slower than it is told: 2.002 1/min at
