@@ -52,7 +52,7 @@ class SynchronizedSpindles {
                  double period);
   /// All that the PLC requests now. Of two requests for one slave the first counts. What is in force while
   /// they run down remains so until they are at rest, also when the drives are enabled again before that;
-  /// then only the same request continues it, and otherwise the masters go on slowing down.
+  /// then only the same request continues it, and otherwise the masters continue to slow down.
   void couple(const std::vector<idl::plc::SpindleCoupling>& couplings);
   /// Something is requested.
   bool any() const;
