@@ -117,8 +117,8 @@ int run_command(const Common& common, const ChannelOptions& options) {
 
 std::string list_of_commands() {
   std::string text =
-      "status: position, mode, state, program and line, feed, spindle, tool and alarms, once or with "
-      "--watch\n"
+      "status: position, mode, state, program and line, feed, tool, alarms, and the spindles of the machine, "
+      "once or with --watch\n"
       "COMMANDS, described in docs/operator-commands.md:";
   for (const auto& row : commands::channel_commands()) {
     const auto usage = commands::usage(row);

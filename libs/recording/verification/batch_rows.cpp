@@ -151,6 +151,11 @@ void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) co
     const auto place = "[" + std::to_string(i) + "]";
     out.push_back({"spindle_condition" + place, bus::to_string(f.spindles[i].condition)});
     out.push_back({"spindle_reference" + place, f.spindles[i].reference});
+    out.push_back({"spindle_homed" + place, f.spindles[i].homed ? 1 : 0});
+    out.push_back({"spindle_gear" + place, f.spindles[i].gear});
+    out.push_back({"spindle_master" + place, f.spindles[i].master});
+    out.push_back({"spindle_synchronization_error" + place, f.spindles[i].synchronization_error});
+    out.push_back({"spindle_correction" + place, f.spindles[i].correction});
   }
   indexed("velocity", f.velocity, 0, f.velocity.size());
   indexed("torque", f.torque, 0, f.torque.size());

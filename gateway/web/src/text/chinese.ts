@@ -121,6 +121,12 @@ export const chinese: Translation<typeof english> = {
   spindleSynchronizing: "同步中",
   spindleSynchronized: "已同步",
   spindleNotHomed: "尚未过零标志",
+  spindles: "各主轴",
+  spindleSpeeds: "实际转速和指令转速",
+  spindleGear: (gear) => `${gear} 挡`,
+  spindleFollows: (master, error) => `跟随 ${master}，误差 ${error}`,
+  spindleWithin: "在窗口内",
+  spindleOutside: "在窗口外",
   activeCodes: "当前 G 代码",
 
   operation: "操作",

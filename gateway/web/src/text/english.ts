@@ -123,6 +123,12 @@ export const english = {
   spindleSynchronizing: "synchronizing",
   spindleSynchronized: "synchronized",
   spindleNotHomed: "no index mark yet",
+  spindles: "Spindles",
+  spindleSpeeds: "Measured and commanded speed",
+  spindleGear: (gear: number) => `gear ${gear}`,
+  spindleFollows: (master: string, error: string) => `follows ${master}, error ${error}`,
+  spindleWithin: "in window",
+  spindleOutside: "not in window",
   activeCodes: "Active G codes",
 
   // Controls

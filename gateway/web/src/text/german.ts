@@ -121,6 +121,12 @@ export const german: Translation<typeof english> = {
   spindleSynchronizing: "wird synchronisiert",
   spindleSynchronized: "synchron",
   spindleNotHomed: "noch keine Nullmarke",
+  spindles: "Spindeln",
+  spindleSpeeds: "Gemessene Drehzahl und Solldrehzahl",
+  spindleGear: (gear) => `Gang ${gear}`,
+  spindleFollows: (master, error) => `folgt ${master}, Fehler ${error}`,
+  spindleWithin: "im Fenster",
+  spindleOutside: "nicht im Fenster",
   activeCodes: "Wirksame G-Codes",
 
   operation: "Bedienung",
