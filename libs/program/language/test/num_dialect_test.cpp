@@ -89,7 +89,7 @@ TEST(NumDialect, TheTextOfAMessageIsReadableWhileItsCommandIsTheNewest) {
   std::string long_text;
   for (int i = 0; i < 49; ++i) long_text += "\xc3\xa9";
   const std::string text =
-      "$ HELLO \xe9\t!  \nG77 H5\nX1 $" + long_text + "\nX2\n%5\nIF 1=1 THEN $5 \xc2\xb5m\nENDI\n";
+      "$ HELLO \xe9\t.  \nG77 H5\nX1 $" + long_text + "\nX2\n%5\nIF 1=1 THEN $5 \xc2\xb5m\nENDI\n";
   StringSource source(text);
   Interpreter interpreter(machine);
   interpreter.start(source, {}, {});
@@ -98,7 +98,7 @@ TEST(NumDialect, TheTextOfAMessageIsReadableWhileItsCommandIsTheNewest) {
   Command command;
   while (interpreter.next(command) == Step::command)
     if (command.kind == CommandKind::message) texts.emplace_back(interpreter.message_text());
-  EXPECT_THAT(texts, ElementsAre("HELLO ??!", "5 \xc2\xb5m", long_text.substr(0, 96)));
+  EXPECT_THAT(texts, ElementsAre("HELLO ??.", "5 \xc2\xb5m", long_text.substr(0, 96)));
   StringSource other("X1\nM2");
   interpreter.start(other, {}, {});
   EXPECT_EQ(interpreter.message_text(), "");
