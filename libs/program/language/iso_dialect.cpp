@@ -46,6 +46,16 @@ bool read_skip(Scanner& scanner, SkipLevels skip) {
 
 bool starts_head(char c) { return c == '%' || letter(c) == 'O'; }
 
+/// Only comments may be there.
+Fault end_of_line(Scanner& scanner) {
+  while (scanner.more() && scanner.peek() == '(') {
+    const std::uint16_t at = scanner.offset();
+    if (!scanner.skip_comment()) return {AlarmNumber::open_comment, at};
+  }
+  if (scanner.at_end() || scanner.peek() == ';') return {};
+  return {AlarmNumber::text_behind_statement, scanner.offset()};
+}
+
 class BlockReader {
  public:
   BlockReader(std::string_view line, SkipLevels skip, Variables& variables, Block& block)
@@ -212,15 +222,7 @@ class BlockReader {
     return state(Statement::assignment);
   }
 
-  /// Only comments may follow.
-  Fault end_of_statement() {
-    while (scanner_.more() && scanner_.peek() == '(') {
-      const std::uint16_t at = scanner_.offset();
-      if (!scanner_.skip_comment()) return {AlarmNumber::open_comment, at};
-    }
-    if (scanner_.at_end() || scanner_.peek() == ';') return {};
-    return {AlarmNumber::text_behind_statement, scanner_.offset()};
-  }
+  Fault end_of_statement() { return end_of_line(scanner_); }
 
   Fault read_condition(bool& result) {
     Value value;
@@ -413,7 +415,8 @@ bool nothing_follows(Scanner scanner) {
   return !skip_comments(scanner) || scanner.at_end() || scanner.peek() == ';';
 }
 
-Statement outline_statement(Scanner scanner, std::uint32_t& label) {
+/// Of ELSE and the ends the scanner is behind the word then, and behind the number of END.
+Statement outline_statement(Scanner& scanner, std::uint32_t& label) {
   if (scanner.take_word("IF")) {
     Scanner rest = scanner;
     if (find_word(rest, "GOTO")) return Statement::none;
@@ -434,12 +437,21 @@ Statement outline_statement(Scanner scanner, std::uint32_t& label) {
   if (scanner.take_word("ENDW")) return Statement::end_while;
   if (scanner.take_word("ENDIF")) return Statement::end_if;
   if (scanner.take_word("END")) {
-    label = plain_number(scanner);
+    Scanner digits = scanner;
+    label = plain_number(digits);
+    scanner.skip_blanks();
+    scanner.number();
     return Statement::end_do;
   }
   if (scanner.take_word("ELSEIF")) return Statement::else_if;
   if (scanner.take_word("ELSE")) return Statement::else_;
   return Statement::none;
+}
+
+/// A jump may lead behind the line, so that read_block does not see it.
+bool is_passed(Statement statement) {
+  return statement == Statement::else_ || statement == Statement::end_if ||
+         statement == Statement::end_while || statement == Statement::end_do;
 }
 
 }  // namespace
@@ -487,6 +499,7 @@ Outline IsoDialect::outline(std::string_view line, SkipLevels skip) const {
   }
   if (!scanner.at_end() && letter(scanner.peek()) != '\0' && letter(scanner.peek(1)) != '\0') {
     outline.statement = outline_statement(scanner, outline.label);
+    if (is_passed(outline.statement)) outline.behind = end_of_line(scanner);
   }
   return outline;
 }

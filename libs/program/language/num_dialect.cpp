@@ -77,6 +77,12 @@ bool skip_remarks(Scanner& scanner) {
   return true;
 }
 
+/// Only comments may be there.
+Fault end_of_num_line(Scanner& scanner) {
+  if (!skip_remarks(scanner)) return {AlarmNumber::open_comment, scanner.offset()};
+  return scanner.at_end() ? Fault{} : Fault{AlarmNumber::text_behind_statement, scanner.offset()};
+}
+
 /// Takes the word that opens, divides or closes a structure.
 Statement take_structure(Scanner& scanner) {
   if (scanner.take_word("IF")) return Statement::begin_if;
@@ -133,6 +139,7 @@ class NumReader {
     if (c == '$') {
       scanner_.advance();
       block_.message = scanner_.more();
+      block_.message_at = scanner_.offset();
       done_ = true;
       return {};
     }
@@ -156,11 +163,9 @@ class NumReader {
     return {};
   }
 
-  /// Only comments may follow.
   Fault end_of_block() {
     done_ = true;
-    if (!skip_remarks(scanner_)) return {AlarmNumber::open_comment, scanner_.offset()};
-    return scanner_.at_end() ? Fault{} : Fault{AlarmNumber::text_behind_statement, scanner_.offset()};
+    return end_of_num_line(scanner_);
   }
 
   Fault e_item(std::uint16_t at) {
@@ -498,7 +503,8 @@ class NumReader {
   static Fault wrong_removal(std::uint16_t at) { return {AlarmNumber::num_removal_words, at, "NUM error 2"}; }
 
   /// The sense in which the spindle turns while the tap moves out is that of the hand of its thread: a
-  /// right-hand one comes out counter-clockwise. The PLC gets neither M3 and M4 nor the range. M2 ends it.
+  /// right-hand one comes out counter-clockwise. The PLC gets neither M3 and M4 nor the range. M2 ends it,
+  /// and the programs that have called this one: what they would move next does not know of the tap.
   Fault complete_removal() {
     constexpr std::uint32_t axes = letter_bits("UVWXYZ"), others = letter_bits("KNS");
     const bool has_words =
@@ -528,6 +534,7 @@ class NumReader {
     if (senses > 1 || ranges > 1) return {AlarmNumber::num_removal_twice, removal_at_, "NUM error 1"};
     block_.m_count = kept;
     if (clockwise) block_.values['K' - 'A'] = -block_.value('K');
+    block_.ends_program = true;
     return add_m(2, removal_at_);
   }
 
@@ -560,7 +567,7 @@ class NumReader {
 
 }  // namespace
 
-DialectRules NumDialect::rules() const { return {true, false, homing_program}; }
+DialectRules NumDialect::rules() const { return {true, false, homing_program, true}; }
 
 Fault NumDialect::read_block(std::string_view line, SkipLevels skip, Variables& variables,
                              Block& block) const {
@@ -593,6 +600,9 @@ Outline NumDialect::outline(std::string_view line, SkipLevels skip) const {
     if (!skip_remarks(scanner) || scanner.at_end()) return outline;
   }
   if (outline.head == Head::none) outline.statement = take_structure(scanner);
+  const bool passed = outline.statement == Statement::else_ || outline.statement == Statement::end_if ||
+                      outline.statement == Statement::end_while;
+  if (passed) outline.behind = end_of_num_line(scanner);
   return outline;
 }
 

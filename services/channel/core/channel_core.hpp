@@ -275,6 +275,9 @@ class ChannelCore {
   // channel_requests.cpp: what a program asks of the rest of the control.
   void run_pending(FlowState state);
   void execute(const language::Command& command);
+  /// "part.nc:12", of a called program "part.nc:O0020:3": where a command is.
+  std::string place_of(const language::Command& command) const;
+  std::string message_of(const language::Command& command) const;
   std::uint8_t role() const;
   void change_table(const language::Command& command);
   void count_part();
@@ -301,6 +304,9 @@ class ChannelCore {
   void begin_program_homing(const language::Command& command);
   void home_next();
   void advance_program_homing();
+  bool has_home_switch(std::uint16_t axis) const;
+  /// Logical numbers of the slaves that move with the axis.
+  std::vector<std::uint16_t> coupled_slaves(std::uint16_t axis) const;
   void note_found(std::uint16_t axis);
   void end_program_homing();
   void tell_references();

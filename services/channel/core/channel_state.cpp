@@ -37,6 +37,8 @@ std::string ChannelCore::detail() const {
   if (cycle_call_.open()) return "waits for the measurement of the kinematics";
   if (waits_for_text()) return "waiting for the text of the program";
   if (running && preparing != nullptr && preparing->approaching) return "approaching the program";
+  if (running && stream_.idle() && link().drive_mode() == DriveMode::HOMING && !motion_at_rest())
+    return "waits: another channel searches a reference";
   if (running && tap_stopped())
     return "the PLC has stopped the tap: it continues when the PLC lets it; reset leaves it where it is";
   if (running && states_.interpreting() && !tapping_.active() &&

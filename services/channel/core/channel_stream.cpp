@@ -71,7 +71,7 @@ void ChannelCore::advance() {
     if (!motion_at_rest()) {
       if (interlock_.holds())
         states_.pause();
-      else
+      else if (link().drive_mode() != DriveMode::HOMING)  // of another channel, which the drive lets end
         stream_.start();
       return;
     }

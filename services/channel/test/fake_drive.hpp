@@ -36,6 +36,7 @@ class FakeDrive {
       echo_.active = false;
       queue_.clear();
       mode = DriveMode::FOLLOWING;
+      if (request.kind == StreamRequestKind::HOME) echo_.search = idl::stream::ReferenceSearch::SEARCHES;
     }
   }
   /// It finds `axis` at `position`, or it does not.
@@ -103,6 +104,7 @@ class FakeDrive {
     feedback.tick = tick += done;
     feedback.axis_count = static_cast<std::uint16_t>(position_.size());
     feedback.position = position_;
+    feedback.enabled = enabled;
     echo_.next = next;
     feedback.channels = {echo_};
     return feedback;
@@ -117,7 +119,8 @@ class FakeDrive {
   void lose_queue() { queue_.clear(); }
 
   DriveMode mode = DriveMode::FOLLOWING;
-  bool waits_for_others = false;  // another channel that it has stopped has not resumed yet
+  std::vector<std::uint8_t> enabled;  // as in Feedback
+  bool waits_for_others = false;      // another channel that it has stopped has not resumed yet
   int starts = 0, resumes = 0;
   std::uint64_t tick = 0;  // one for each setpoint; more pass in a hold
   std::uint64_t next = 0;

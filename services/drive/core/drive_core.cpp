@@ -117,6 +117,12 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
   if (found == nullptr) return;
   auto& channel = *found;
   if (request.request == channel.request && request.epoch == channel.epoch) return;
+  channel.refuse_waiting();
+  // It is answered when it begins.
+  if (request.kind == StreamRequestKind::HOME && mode_ == Mode::HOMING) {
+    channel.waiting = request;
+    return;
+  }
   channel.request = request.request;
   switch (request.kind) {
     case StreamRequestKind::START:
@@ -194,6 +200,7 @@ void DriveCore::stop_at_newest_row(std::uint64_t starved) {
   if (mode_ == Mode::RETURNING) off_path_ = true;
   if (homing) {
     note_search(HomingCycle::State::failed);
+    streams_.refuse_waiting();
     target_ = command_;
   }
   for (auto& axis : row_.axes) axis.velocity = 0;
@@ -230,6 +237,7 @@ void DriveCore::step() {
         --settle_;
       break;
   }
+  if (mode_ != Mode::HOMING) begin_waiting_search();
   exchange();
 }
 

@@ -152,6 +152,7 @@ class DriveCore {
   void start(ChannelStream& channel, const idl::stream::StreamRequest& request);
   bool all_homed();
   void home(ChannelStream& channel, const idl::stream::StreamRequest& request);
+  void begin_waiting_search();
   void reference(std::size_t column, double shift);
   void reference_members();
   void step_homing();

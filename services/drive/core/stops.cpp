@@ -40,6 +40,7 @@ void DriveCore::lose_control(std::string text) {
 
 void DriveCore::switch_off() {
   if (mode_ == Mode::HOMING) note_search(HomingCycle::State::failed);
+  streams_.refuse_waiting();
   enable_.lose();
   off_path_ = any_active();
   rate_.hold();

@@ -83,6 +83,27 @@ TEST(NumDialect, MessagesAreThoseOfTheirLine) {
   EXPECT_EQ(result.commands[1].line, 2u);
 }
 
+TEST(NumDialect, TheTextOfAMessageIsReadableWhileItsCommandIsTheNewest) {
+  TestMachine machine = num_machine();
+  // 0xe9 is an e with an acute accent in Latin-1 and no UTF-8; the last text has 49 characters of two bytes.
+  std::string long_text;
+  for (int i = 0; i < 49; ++i) long_text += "\xc3\xa9";
+  const std::string text =
+      "$ HELLO \xe9\t.  \nG77 H5\nX1 $" + long_text + "\nX2\n%5\nIF 1=1 THEN $5 \xc2\xb5m\nENDI\n";
+  StringSource source(text);
+  Interpreter interpreter(machine);
+  interpreter.start(source, {}, {});
+  EXPECT_EQ(interpreter.message_text(), "");
+  std::vector<std::string> texts;
+  Command command;
+  while (interpreter.next(command) == Step::command)
+    if (command.kind == CommandKind::message) texts.emplace_back(interpreter.message_text());
+  EXPECT_THAT(texts, ElementsAre("HELLO ??.", "5 \xc2\xb5m", long_text.substr(0, 96)));
+  StringSource other("X1\nM2");
+  interpreter.start(other, {}, {});
+  EXPECT_EQ(interpreter.message_text(), "");
+}
+
 TEST(NumDialect, DwellIsInSecondsAndUnitsAreG70AndG71) {
   EXPECT_THAT(num_stream("G4 F.5\nG4F1\nM2"), ElementsAre("dwell 0.5", "dwell 1", "end 2"));
   // 1 inch = 25.4 mm, 10 inch/min = 254 mm/min.
@@ -110,6 +131,29 @@ TEST(NumDialect, ACalledProgramEndsWithItsText) {
               ElementsAre("rapid X2", "line X2 Z1 F2000", "end 2"));
   machine.programs["O0005"] = std::make_unique<StringSource>("IF 1=1 THEN\nX1\n");
   EXPECT_THAT(stream(run(machine, "G77 H5\nM2")), ElementsAre("rapid X1", "alarm 1405 1:1"));
+}
+
+// As the homing programs of the manual are printed. An IF without ELSE, a loop, and what is open within an
+// ELSE still need their ends.
+TEST(NumDialect, TheEndOfAProgramClosesAnIfBehindItsElse) {
+  EXPECT_THAT(num_stream("IF 1=1 THEN\nX1\nELSE\nX2\n"), ElementsAre("rapid X1", "end 0"));
+  EXPECT_THAT(num_stream("IF 1=2 THEN\nX1\nELSE\nX2\n"), ElementsAre("rapid X2", "end 0"));
+  for (const char* condition : {"1=1", "1=2"})
+    EXPECT_THAT(
+        num_stream(std::string("G77 H7\nY5\nM2\n%7\nIF ") + condition + " THEN\nX1\nELSE\nX2\n%8\nX3\n"),
+        ElementsAre(condition == std::string("1=1") ? "rapid X1" : "rapid X2",
+                    condition == std::string("1=1") ? "rapid X1 Y5" : "rapid X2 Y5", "end 2"))
+        << condition;
+  EXPECT_THAT(num_stream("IF 1=2 THEN\nELSE\nIF 1=2 THEN\nELSE\nX1\n"), ElementsAre("rapid X1", "end 0"));
+  // A jump from one branch into the other.
+  EXPECT_THAT(num_stream("IF 1=1 THEN\nG79 N5\nELSE\nX9\nN5 X1\n"), ElementsAre("rapid X1", "end 0"));
+  EXPECT_THAT(num_stream("IF 1=2 THEN\nX1\n"), ElementsAre("alarm 1405 1:1"));
+  EXPECT_THAT(num_stream("IF 1=2 THEN\nELSE\nIF 1=1 THEN\nX1\n"), ElementsAre("rapid X1", "alarm 1405 3:1"));
+  EXPECT_THAT(num_stream("IF 1=1 THEN\nX1\nELSE\nIF 1=1 THEN\n"), ElementsAre("rapid X1", "alarm 1405 3:1"));
+  EXPECT_THAT(num_stream("WHILE 1=2 DO\nIF 1=1 THEN\nELSE\n"), ElementsAre("alarm 1405 1:1"));
+  EXPECT_THAT(num_stream("IF 1=2 THEN\nELSE\nWHILE 1=2 DO\nX1\n"), ElementsAre("alarm 1405 3:1"));
+  TestMachine iso;
+  EXPECT_EQ(run(iso, "IF 0\nELSE\nX2\n").alarm.number, AlarmNumber::begin_without_end);
 }
 
 // The example of the document, from EH 2: 202 mm at 1.25 mm per revolution, out at 2.5 times 500 1/min.
@@ -169,6 +213,13 @@ TEST(NumDialect, ATapIsRemovedInTheSenseThatIsWritten) {
   // The distance is incremental, also with G90, and in the unit of the program.
   EXPECT_THAT(num_stream("G70 G90 X1 Z1\nG39+ M4 S200 K.1 X.5\nM2"),
               ElementsAre("rapid X25.4 Z25.4", "S200", "tap X38.1 Z25.4 lead-2.54", "end 2"));
+}
+
+TEST(NumDialect, TheRemovalOfATapEndsTheProgramsThatHaveCalledIt) {
+  EXPECT_THAT(num_stream("G77 H5\nX50\nM2\n%5\nG77 H6\nX40\n%6\nG39+ M4 S200 K1 Z10\n"),
+              ElementsAre("S200", "tap Z10 lead-1", "end 2"));
+  // An M2 of the program itself still returns.
+  EXPECT_THAT(num_stream("G77 H5\nX50\nM2\n%5\nM2\n"), ElementsAre("rapid X50", "end 2"));
 }
 
 TEST(NumDialect, ProgramsAreStoredUnderTheirNumber) {
@@ -283,6 +334,9 @@ const std::vector<NumFault>& num_faults() {
       {num_homing_axis, "L0=9 G77 H9990.9", 1, 10, ": H9990.9"},
       {num_homing_axis, "L0=0.5 G77 H9990.9", 1, 12, ": H9990.9"},
       {num_homing_axis, "L0=-1 G77 H9990.9", 1, 11, ": H9990.9"},
+      // X is 0, and so is an L0 that was not written.
+      {num_homing_axis, "F2000 G77 H9990.9", 1, 11, ": H9990.9"},
+      {num_homing_axis, "L1=2 G77 H9990.9", 1, 10, ": H9990.9"},
       {missing_word, "G159", 1, 1, ": G159, needs an axis"},
       {missing_word, "G38 Z-13", 1, 1, ": G38, needs K"},
       {missing_word, "G33 Z-13", 1, 1, ": G33, needs K"},
@@ -326,6 +380,9 @@ const std::vector<NumFault>& num_faults() {
       {num_parameter_unknown, "L0=E12345", 1, 4, ": E12345"},
       {num_parameter_unknown, "L0=E[FOO]", 1, 4, ": E"},
       {num_parameter_unknown, "L0=E[MUCHTOOLONG]", 1, 4, ": E"},
+      {num_parameter_unknown, "E35332 = 0", 1, 1, ": E35332, NUM error 92"},
+      {num_parameter_unknown, "E94299=24", 1, 1, ": E94299, NUM error 92"},
+      {num_parameter_unknown, "L0=E91109", 1, 4, ": E91109"},
       {num_parameter_unavailable, "L0=E90110", 1, 4, ": E90110, MODULOB1 (E90110)"},
       {num_parameter_unavailable, "E90300=24", 1, 1, ": E90300, VITPALB1 (E90300)"},
       {num_parameter_unavailable, "E98024=500", 1, 1, ": E98024, TIB1 (E98024)"},
@@ -338,6 +395,7 @@ const std::vector<NumFault>& num_faults() {
       {num_modal_read, "L0=[.RG4]", 1, 4, ": ["},
       {num_modal_read, "L0=[2]", 1, 4, ": ["},
       {variable_read_only, "E90100=1", 1, 1, ": E90100, MESPOSB1 (E90100)"},
+      {variable_read_only, "E91108=0", 1, 1, ": E91108"},
       {variable_value, "E80000=1.5", 1, 1, ": E80000, a whole number"},
       {variable_unknown, "L20=1", 1, 1, ": L20, L0 to L19 and L100 to L199"},
       {letter_twice, "X1 X2", 1, 4, ": X2"},
@@ -356,6 +414,14 @@ const std::vector<NumFault>& num_faults() {
       {statement_not_first, "G0 G79 N1", 1, 4, ": G79"},
       {text_behind_statement, "IF 1=1 THEN\nENDI X1", 2, 6, ": X1"},
       {text_behind_statement, "IF 1=1 THEN\nELSE $text", 2, 6, ": $"},
+      // A jump leads behind these lines.
+      {text_behind_statement, "IF 1=2 THEN\nX1\nELSEIF 2=2 THEN\nX2\nENDI", 3, 5, ": IF"},
+      {text_behind_statement, "IF 1=2 THEN\nX1\nELSE X2\nENDI", 3, 6, ": X2"},
+      {text_behind_statement, "IF 1=2 THEN\nELSE $text\nENDI", 2, 6, ": $"},
+      {text_behind_statement, "IF 1=2 THEN\nN5 ENDI (end) X1", 2, 15, ": X1"},
+      {text_behind_statement, "IF 1=2 THEN\nENDIF", 2, 5, ": F"},
+      {text_behind_statement, "WHILE 1=2 DO\nENDW M5", 2, 6, ": M5"},
+      {open_comment, "WHILE 1=2 DO\nENDW (open", 2, 11, ""},
       {end_without_begin, "ENDW", 1, 1, ": ENDW"},
       {number_missing, "%\nX1", 1, 1, ": %"},
       {misplaced_head, "M64M40M3S50%", 1, 12, ": %"},
@@ -549,17 +615,45 @@ TEST(NumHoming, TheControlCarriesOut9990Point9) {
   // 10 inch/min; F per revolution is no speed of the search.
   EXPECT_THAT(num_stream("G70 L0=2 F10 G77 H9990.9\nG95 F.1 G77 H9990.9\nM2"),
               ElementsAre("home4 F10", "home4", "end 2"));
-  // L0 is 0 when it was not written: X. An axis that the channel does not have is left out.
+  // An axis that the channel does not have is left out.
   TestMachine machine = num_machine();
   machine.axis_mask = 0b000000101;
-  EXPECT_THAT(stream(run(machine, "G77 H9990.9\nL0=1 G77 H9990.9\nL0=2 G77 H9990.9\nM2")),
+  EXPECT_THAT(stream(run(machine, "L0=0 G77 H9990.9\nL0=1 G77 H9990.9\nL0=2 G77 H9990.9\nM2")),
               ElementsAre("home1", "home4", "end 2"));
   TestMachine iso;
   EXPECT_EQ(run(iso, "M98 P9990 L1").alarm.number, AlarmNumber::subprogram_missing);
 }
 
-// The example for one group as it is printed, comments translated: Z and X at their own feeds, Y at that of
-// X, C. The condition does not hold, because G159 is carried out without these programs.
+// 1 as E91124 says it of spindles: not homed. X, Z and W had their references when the program began; C is
+// bit 5, W bit 8.
+TEST(NumHoming, AProgramCanAskWhichAxesAreNotHomed) {
+  TestMachine machine = num_machine();
+  StringSource source(
+      "L1=E91100 L2=E91101 L3=E91105 L8=E91108\nXL1 YL2 ZL3 CL8\nWHILE E91108=1 DO L0=8 G77 H9990.9\nENDW\n"
+      "Y4\nM2");
+  Interpreter interpreter(machine);
+  interpreter.set_homed(0b100000101);
+  interpreter.start(source, {}, {});
+  Interpretation result;
+  Command command;
+  do {
+    result.last = interpreter.next(command);
+    if (result.last == Step::command) result.commands.push_back(command);
+    if (result.last == Step::position) interpreter.set_position(command.target);
+  } while (result.last == Step::command || result.last == Step::position);
+  // The search ends at the reference position of C, 0.
+  EXPECT_THAT(stream(result), ElementsAre("rapid Y1 C1", "home32 Y1", "rapid Y4", "end 2"));
+  interpreter.set_homed(std::nullopt);
+  StringSource again("L1=E91100\nM2");
+  interpreter.start(again, {}, {});
+  EXPECT_EQ(interpreter.next(command), Step::alarm);
+  EXPECT_EQ(interpreter.alarm().number, AlarmNumber::homed_unknown);
+  machine.axis_mask = 0b000000101;
+  EXPECT_EQ(run(machine, "L1=E91101").alarm.number, AlarmNumber::num_parameter_unavailable);
+}
+
+// The examples are as they are printed, comments translated. Z and X at their own feeds, Y at that of X, C.
+// The condition does not hold, because G159 is carried out without these programs.
 TEST(NumHoming, ThePrintedProgramForOneGroupRuns) {
   EXPECT_THAT(
       num_stream("$9990\n\nIF [.RG80] = 159 THEN (called by G159)\n   G77 H9990.9\n\nELSE (called in homing "
@@ -569,28 +663,63 @@ TEST(NumHoming, ThePrintedProgramForOneGroupRuns) {
       ElementsAre("message 10000", "home4 F2000", "home1 F3000", "home2 F3000", "home32 F10000", "end 2"));
 }
 
-// Homing of a machine with one group and of one group of two; the call of an axis moves X to its number here.
-TEST(NumDialect, ProgramsOfTheManualRunUpToWhatIsNotThere) {
-  TestMachine machine = num_machine();
-  machine.programs["O9990.9"] = std::make_unique<StringSource>("XL0\n");
-  EXPECT_THAT(
-      stream(run(machine,
-                 "$9990\nIF [.RG80] = 159 THEN (called by G159)\n   G77 H9990.9\n\nELSE (called in "
-                 "homing mode)\n        (perhaps a feed)\n   L0=2 F2000 G77 H9990.9 (Z)\n   L0=0 F3000 "
-                 "G77 H9990.9 (X)\n   L0=1 G77 H9990.9 (Y)\n   L0=8 F10000 G77 H9990.9 (C)\nM2\n")),
-      ElementsAre("message 10000", "rapid X2", "rapid", "rapid X1", "rapid X8", "end 2"));
-  EXPECT_THAT(stream(run(machine,
-                         "%9990.1 (HOMING, GROUP 1)\nIF [.RG80] = 159 THEN (called by G159)\n   G77 "
-                         "H9990.9\nELSE\n   L0=2 F2000 G77 H9990.9(Z)\n   G78 Q1 P1.2 (WAIT)\n   M2\n"
-                         "%9990.2(HOMING, GROUP 2)\n")),
-              ElementsAre("rapid X2", "alarm 1152 6:4"));
-  EXPECT_THAT(stream(run(machine, "E80000=3 E80001=42\nL0=200 L1=1.25\nG39+ ME80000 ME80001 SL0 KL1 Z-10\n")),
+// Neither has ENDI; the first one ends with M2, the second one with its text.
+const std::string group_1 =
+    "%9990.1 (Homing on group 1)\nIF [.RG80] = 159 THEN (call by G159)\n   G77 H9990.9\nELSE (call in homing "
+    "mode: load axis no. in L0)\n     (programme the feed rate Fxxx if required)\n   L0=2 F2000 G77 "
+    "H9990.9(Z "
+    "axis)\n   G78 Q1 P1.2 (Wait for homing on Z on another group)\n   L0=0 F3000 G77 H9990.9(X axis)\n   "
+    "L0=1 "
+    "G77 H9990.9(Y axis)\n   L0=8 F10000 G77 H9990.9(C axis)\n  M2\n";
+const std::string group_2 =
+    "%9990.2 (Homing on group 2)\nIF [.RG80] = 159 THEN (call by G159)\n   G77 H9990.9\nELSE (call in homing "
+    "mode: load axis no. in L0)\n    (programme the feed rate Fxxx if required)\n   L0=2 F2000 G77 H9990.9 "
+    "(Z "
+    "axis)\n   G78 Q1 P1.1 (Wait for homing on Z on another group)\n   L0=0 F3000 G77 H9990.9(X axis)\n   "
+    "L0=1 "
+    "G77 H9990.9(Y axis)\n";
+
+std::string without_wait_mark(std::string program) {
+  const auto begin = program.find("   G78");
+  return program.erase(begin, program.find('\n', begin) + 1 - begin);
+}
+
+TEST(NumHoming, ThePrintedProgramsForTwoGroupsRunButForTheirWaitMarks) {
+  EXPECT_THAT(num_stream(group_1 + group_2), ElementsAre("home4 F2000", "alarm 1152 7:4"));
+  EXPECT_THAT(num_stream(group_2), ElementsAre("home4 F2000", "alarm 1152 7:4"));
+  EXPECT_THAT(num_stream(without_wait_mark(group_1) + group_2),
+              ElementsAre("home4 F2000", "home1 F3000", "home2 F3000", "home32 F10000", "end 2"));
+  EXPECT_THAT(num_stream(without_wait_mark(group_2)),
+              ElementsAre("home4 F2000", "home1 F3000", "home2 F3000", "end 0"));
+  // As manual data input calls it, and with another program behind it.
+  EXPECT_THAT(num_stream("G77 H9990.2\nM8\nM2\n" + without_wait_mark(group_2) + group_1),
+              ElementsAre("home4 F2000", "home1 F3000", "home2 F3000", "M8", "end 2"));
+}
+
+// On a NUM control G159 calls the programs, and the condition holds. Here one that holds stands in its place:
+// the axis is in L0, and nothing of the other branch is carried out, although no ENDI ends it.
+TEST(NumHoming, TheBranchOfG159HomesTheAxisOfL0Alone) {
+  for (auto program : {without_wait_mark(group_1), without_wait_mark(group_2)}) {
+    program.replace(program.find("159 THEN"), 3, "80");
+    EXPECT_THAT(num_stream("L0=8 F500\nG77 H" + program.substr(1, 6) + "\nM2\n" + program),
+                ElementsAre("home32 F500", "end 2"));
+  }
+}
+
+TEST(NumDialect, ProgramsOfTheManualRun) {
+  EXPECT_THAT(num_stream("E80000=3 E80001=42\nL0=200 L1=1.25\nG39+ ME80000 ME80001 SL0 KL1 Z-10\n"),
               ElementsAre("S200", "tap Z-10 lead1.25", "end 2"));
-  EXPECT_THAT(stream(run(machine, "E35324 = 0\n")), ElementsAre("alarm 1156 1:1"));
-  EXPECT_THAT(stream(run(machine,
-                         "WHILE L0=0 DO G4 F.5 $\nL0=1\nENDW\n$SYNCHRO OK\nM64 M40 M3 S2000\nG4 F5\n"
-                         "M2\n")),
-              ElementsAre("dwell 0.5", "message 10000", "M64", "S2000", "M40", "M3", "dwell 5", "end 2"));
+  // Thread cutting with tapered retraction: lead 2, taught at Z-13 and 90 deg, from Z5 9 revolutions.
+  EXPECT_THAT(num_stream("M3 S500\nG0X0Z5\nG38+ J-18 EC90 K2 Z-20\nX4 Z-24\nG0 X20\nM2"),
+              ElementsAre("S500", "M3", "rapid Z5", "thread Z-20 lead2 from90", "thread X4 Z-24 lead2",
+                          "rapid X20 Z-24", "end 2"));
+}
+
+// To the C axis and back: each of the lines is refused by name, and none is passed over.
+TEST(NumDialect, TheSwitchingBetweenSpindleAndCAxisIsNotThere) {
+  for (const char* line : {"E35324 = 0", "E94224 = 24 G4F1", "E91008 = 0 G4F1", "E35324 = 11",
+                           "E94224 = 8 G4F1", "E91008 = 1 G4F1"})
+    EXPECT_THAT(num_stream(line), ElementsAre("alarm 1156 1:1")) << line;
 }
 
 // The values that the program asks for, one after the other; 0 when there are no more.
