@@ -117,6 +117,8 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
   if (found == nullptr) return;
   auto& channel = *found;
   if (request.request == channel.request && request.epoch == channel.epoch) return;
+  // A process that continues from a snapshot hears the newest request of each channel again.
+  if (request == channel.waiting) return;
   channel.refuse_waiting();
   // It is answered when it begins.
   if (request.kind == StreamRequestKind::HOME && mode_ == Mode::HOMING) {

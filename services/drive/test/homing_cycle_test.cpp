@@ -378,6 +378,9 @@ TEST_F(TwoChannels, AContinuedDriveBeginsTheSearchThatWaitsWithTheSameBits) {
   DriveCore other{std::make_unique<SimulatedHardware>()};
   other.configure(parameters(), true);
   other.continue_from(core.explicit_state());
+  other.request({1, 1, StreamRequestKind::HOME, 1, 1});  // it is the newest on its topic
+  EXPECT_EQ(echo_of(other, 1).request, 0u) << "it waits still";
+  EXPECT_EQ(echo_of(other, 1).search, ReferenceSearch::NO_SEARCH);
   while (core.can_step(false)) {
     ASSERT_TRUE(other.can_step(false));
     core.step(), other.step();
