@@ -415,7 +415,8 @@ TEST_F(Tap, WithATapInItsHoleNoProgramStartsButItsRemoval) {
             "A tap is in its hole: " + tap + ". Remove it with G84.9 (NUM: G39+) by MDI, then start");
   const auto moved = drive.rows.size();
   for (const char* program :
-       {"G90 G0 Z20\nM30\n", "G91 G1 X1 F100\nM30\n", "G90 G95 S400\nG99 G84 Z-20 R-6 F1.25\nM30\n"}) {
+       {"G90 G0 Z20\nM30\n", "G91 G1 X1 F100\nM30\n", "G90 G95 S400\nG99 G84 Z-20 R-6 F1.25\nM30\n",
+        "G91 G95 S400\nG99 G84 Z-5 R0 F1.25\nM30\n"}) {
     events.clear();
     start(program);
     run();
