@@ -33,6 +33,11 @@ bool is_path(CommandKind kind) {
   return kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc;
 }
 
+bool moves_axes(CommandKind kind) {
+  return is_path(kind) || kind == CommandKind::skip || kind == CommandKind::thread ||
+         kind == CommandKind::home;
+}
+
 /// What turns the spindle or changes its tool: not on axes whose place is unknown. Clamps and coolant may be
 /// needed for the search of the references.
 bool needs_references(const language::Command& command) {
@@ -62,6 +67,7 @@ void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, c
   lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   place_ = position;
   tapping_ = in_hole_ = text_missing_ = behind_thread_ = false;
+  restart_passed_ = restart_in_thread_ = false;
   set_threading(false);
   surface_speed_used_ = initial.spindle_mode == language::SpindleMode::surface;
   executing_ = initial;
@@ -156,6 +162,12 @@ void ProgramFlow::set_threading(bool threading) {
 // The axes are at rest: the guard may take its time.
 FlowState ProgramFlow::take_leg() {
   if (!without_reference_.empty()) return fail_without_reference();
+  // Behind the last of them another thread would begin, out of phase with this one.
+  if (legs_.size() == ThreadPath::most_legs)
+    return fail(language::AlarmNumber::thread_impossible,
+                std::string(language::alarm_text(language::AlarmNumber::thread_impossible)) +
+                    ": it has more than " + std::to_string(ThreadPath::most_legs) +
+                    " blocks; end it with G9, or make it of fewer blocks");
   const auto from = legs_.empty() ? motion_->end_position() : legs_.back().target;
   if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
   auto free = ask_guard(from);
@@ -168,8 +180,7 @@ FlowState ProgramFlow::take_leg() {
   executing_ = command_.modal;
   have_command_ = false;
   if (on_move) on_move(thread_line(command_, from));
-  thread_complete_ = command_.modal.path_control == language::PathControl::exact_stop ||
-                     legs_.size() == ThreadPath::most_legs;
+  thread_complete_ = command_.modal.path_control == language::PathControl::exact_stop;
   return FlowState::full;
 }
 
@@ -233,6 +244,10 @@ FlowState ProgramFlow::push_pending() {
 }
 
 void ProgramFlow::refuse_pending(language::AlarmNumber number) { fail(number); }
+
+void ProgramFlow::refuse_pending(language::AlarmNumber number, const std::string& why) {
+  fail(number, std::string(language::alarm_text(number)) + ": " + why);
+}
 
 void ProgramFlow::refuse_thread(language::AlarmNumber number, std::size_t leg) {
   const auto& at = legs_[leg];
@@ -375,6 +390,19 @@ FlowState ProgramFlow::take_step(language::Step step) {
   return FlowState::waiting;
 }
 
+// The axes are at its end, in its frame, and the spindle is coupled no longer.
+bool ProgramFlow::pass_done(bool drilling) {
+  const bool thread = coupled_threads_ && command_.kind == CommandKind::thread;
+  const auto& point = entry_.restart;
+  if (search_ != Search::restart || command_.sequence != point.sequence || point.fraction < 1 ||
+      !(drilling || thread))
+    return false;
+  restart_passed_ = true;
+  restart_in_thread_ = thread && command_.modal.path_control == language::PathControl::continuous;
+  executing_ = command_.modal;
+  return true;
+}
+
 std::optional<double> ProgramFlow::turning_radius(std::uint32_t sequence, const AxisValues& position) const {
   if (!surface_speed_used_) return std::nullopt;
   const auto* modal = modals_.at(sequence);
@@ -425,20 +453,22 @@ FlowState ProgramFlow::fill(bool single_block) {
     if (searching()) {
       const bool drilling =
           command_.kind == CommandKind::tap || (in_hole_ && command_.kind == CommandKind::dwell);
-      if (search_ == Search::line || command_.sequence < entry_.restart.sequence) {
+      if (search_ == Search::line || command_.sequence < entry_.restart.sequence || pass_done(drilling)) {
         in_hole_ = drilling;
         finish_pending();
         continue;
       }
       // The spindle is no longer coupled to the position in the thread.
-      if (drilling || (coupled_threads_ && command_.kind == CommandKind::thread))
+      const bool in_thread = !restart_passed_ || (restart_in_thread_ && command_.number == 0);
+      if (drilling || (coupled_threads_ && command_.kind == CommandKind::thread && in_thread))
         return fail(language::AlarmNumber::not_resumable);
       search_ = Search::none;
       // A drive that lost its newest cycles repeats the skip moves in them: their results are void.
       drop_later_results();
+      const auto& modal = restart_passed_ ? executing_ : command_.modal;
       modals_.clear();
-      modals_.add(0, command_.modal);
-      motion_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
+      modals_.add(0, modal);
+      motion_->start(entry_.restart.position, modal.transformation, modal.tool_length);
     }
     if (command_.modal.frame != frame_) frames_.add(command_.sequence, interpreter_.frame_of(command_));
     frame_ = command_.modal.frame;
@@ -452,6 +482,10 @@ FlowState ProgramFlow::fill(bool single_block) {
     const bool continues = coupled && command_.number == 0;
     const bool move =
         is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke || (thread && !coupled);
+    if (!tap_in_hole_.empty() && !tapping_ && moves_axes(command_.kind))
+      return fail(
+          language::AlarmNumber::tap_removal_thread,
+          std::string(language::alarm_text(language::AlarmNumber::tap_removal_thread)) + ": " + tap_in_hole_);
     if (std::exchange(behind_thread_, false) && continues)
       return fail_search("the line continues a thread: start before the first block of it");
     if (threading_ && !continues && !(coupled && legs_.empty())) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 
 namespace trunnion::program_execution {
 namespace {
@@ -41,6 +42,13 @@ double TapInHole::depth(const language::AxisValues& position) const {
   const double inside = product(offset, direction);
   const double square = product(offset, offset) - inside * inside;
   return inside > least_depth && square < beside * beside ? inside : 0;
+}
+
+std::string TapInHole::words(double depth) const {
+  char text[96];
+  std::snprintf(text, sizeof text, "%s-hand thread, lead %.6g mm, %.3f mm deep", lead < 0 ? "left" : "right",
+                std::abs(lead), depth);
+  return text;
 }
 
 bool TapInHole::contradicts(const language::AxisValues& from, const language::AxisValues& to,

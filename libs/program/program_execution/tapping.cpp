@@ -7,10 +7,11 @@
 
 namespace trunnion::program_execution {
 
-void Tapping::begin(const AxisValues& start, const language::Command& stroke) {
+void Tapping::begin(const AxisValues& start, const language::Command& stroke, double highest_speed) {
   active_ = true;
   start_ = start;
   lead_ = stroke.value;
+  highest_speed_ = highest_speed;
   axis_ = stroke.number;
   double length = 0;
   for (std::size_t i = 0; i < 3; ++i) length = std::hypot(length, stroke.target[i] - start[i]);
@@ -36,6 +37,11 @@ motion::Limits Tapping::limits(motion::Limits limits, double acceleration) const
   for (std::size_t i = 0; i < 3; ++i)
     limits.axes[i].acceleration = std::min(limits.axes[i].acceleration, most);
   return limits;
+}
+
+double Tapping::fastest(const language::Command& stroke, double highest) {
+  const double wanted = highest_override * fastest_stroke(stroke);
+  return highest > 0 ? std::min(wanted, highest) : wanted;
 }
 
 double Tapping::override_of(double wanted, double speed, double highest) {

@@ -18,6 +18,9 @@ namespace {
 
 // Motion plans every cell for this one.
 static_assert(commands::feed_override.maximum == motion::highest_override);
+// A tap keeps to the acceleration of the spindle with this one, and a thread is not broken off.
+static_assert(commands::spindle_override.maximum == Tapping::highest_override);
+static_assert(commands::spindle_override.maximum < ThreadPath::speed_margin);
 
 /// Of an override, to whole percents within its limits.
 double stepped(double override_, double by, const commands::OverrideLimits& limits) {

@@ -58,6 +58,8 @@ class FakeDrive {
   std::function<double(std::uint64_t cycle, const std::vector<double>& row)> lag;
   /// Angle of the encoder of a spindle in a cycle, rev; empty: there is none.
   std::function<double(std::uint64_t cycle)> spindle_angle;
+  /// Speed of the first spindle now, 1/min; empty: it is not reported, or 0 with an angle.
+  std::function<double()> spindle_speed;
   /// States of the spindles when all cycles below `next` are executed; empty: the machine has none.
   std::function<std::vector<idl::stream::SpindleState>(std::uint64_t next)> spindle_states;
   /// Executes batches, at most `cycles` setpoints' worth, and reports.
@@ -99,6 +101,7 @@ class FakeDrive {
               feedback.actual.begin());
     feedback.first = next - feedback.count;
     if (spindle_angle) feedback.spindle_speed = {0.0};
+    if (spindle_speed) feedback.spindle_speed = {spindle_speed()};
     if (spindle_states) feedback.spindles = spindle_states(next);
     feedback.mode = mode;
     feedback.tick = tick += done;

@@ -16,6 +16,9 @@ using idl::channel::CommandKind;
 using testing::Channel;
 using testing::three_axes;
 
+// R 2, depth -10, lead 1.25: the hole is 12 mm, 9.6 turns.
+const std::string hole = "G90 G94 G0 Z5\nS400 M3\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\nG0 Z20\nM30\n";
+
 struct Tap : Channel {
   // A spindle that gains 2000 1/min in a second: 12000 deg/s2.
   void SetUp() override {
@@ -26,6 +29,19 @@ struct Tap : Channel {
   void start(const std::string& program) {
     load(program);
     ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  }
+  void by_hand(const std::string& line) {
+    ASSERT_TRUE(ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI).accepted);
+    ASSERT_TRUE(ask(CommandKind::MDI_LINE, line).accepted);
+    run();
+  }
+  /// A reset in the hole leaves the tap there.
+  void leave_tap_in_hole() {
+    cycles_per_round = 8;
+    start(hole);
+    while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+    ask(CommandKind::RESET);
+    run();
   }
   /// Rows in which the spindle was coupled, as (Z, revolutions).
   std::vector<std::pair<double, double>> coupled() const {
@@ -41,9 +57,6 @@ struct Tap : Channel {
     return codes;
   }
 };
-
-// R 2, depth -10, lead 1.25: the hole is 12 mm, 9.6 turns.
-const std::string hole = "G90 G94 G0 Z5\nS400 M3\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\nG0 Z20\nM30\n";
 
 TEST_F(Tap, DepthAndAngleKeepTheLeadInEveryCycleAndTheSpindleTurnsBackToWhereItBegan) {
   start(hole);
@@ -151,6 +164,105 @@ TEST_F(Tap, TheSpindleOverrideDoesNotTakeTheSpindleAboveItsHighestSpeed) {
   EXPECT_NEAR(highest_speed(coupled()), 450, 0.01) << "and not 600";
 }
 
+/// What the drive says of one spindle in a gear.
+std::vector<idl::stream::SpindleState> in_gear(std::uint8_t gear) {
+  std::vector<idl::stream::SpindleState> states(1);
+  states[0].gear = gear, states[0].master = -1;
+  return states;
+}
+
+// Gear 1 up to 1000 1/min, gear 2 up to 4000. S900 with 150 % is 1350.
+TEST_F(Tap, TheSpindleOverrideDoesNotTakeTheSpindleAboveTheSpeedOfItsGear) {
+  parameters->values[105985] = {1000, ""}, parameters->values[105986] = {4000, ""};
+  const std::pair<std::uint8_t, double> gears[] = {{1, 1000}, {2, 1350}, {0, 1350}};
+  for (const auto& [gear, highest] : gears) {
+    drive = testing::FakeDrive(3);
+    drive.spindle_states = [in = gear](std::uint64_t) { return in_gear(in); };
+    begin();
+    load("G90 G95 G0 Z5\nS900 M3\nG99 G84 X0 Y0 Z-20 R2 F1.25\nG80\nM30\n");
+    ask(CommandKind::SPINDLE_OVERRIDE, "", 1.5);
+    ask(CommandKind::CYCLE_START);
+    run();
+    EXPECT_NEAR(highest_speed(coupled()), highest, 0.01) << "gear " << static_cast<int>(gear);
+  }
+}
+
+// The example of the manual: in at 500 1/min, out at 1250.
+TEST_F(Tap, AWayOutAboveTheSpeedOfTheGearIsRefusedBeforeTheTapIsInTheHole) {
+  parameters->values[105985] = {1000, ""}, parameters->values[105986] = {4000, ""};
+  parameters->values[40959] = {1, ""};
+  const std::string program = "S500 M3\nG84 Z-20 K1.25 EK2.5 EH2 ER5\nG0 Z20\nM2\n";
+  drive.spindle_states = [](std::uint64_t) { return in_gear(1); };
+  begin();
+  start(program);
+  run();
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().alarm, &alarm::spindle_speed_above);
+  EXPECT_NE(events.back().text.find("the tap needs 1250 1/min, S has at most 1000 1/min in gear 1 (10a985)"),
+            std::string::npos)
+      << events.back().text;
+  EXPECT_TRUE(coupled().empty());
+  EXPECT_EQ(drive.rows.back()[2], 2);
+  events.clear();
+  drive = testing::FakeDrive(3);
+  drive.spindle_states = [](std::uint64_t) { return in_gear(2); };
+  begin();
+  start(program);
+  run();
+  EXPECT_TRUE(events.empty());
+  EXPECT_NEAR(highest_speed(coupled()), 1250, 0.01);
+}
+
+// 12000 deg/s2 up to 200 1/min: at 600, the highest speed that S400 can have, they are 4000, 666.7 1/min in a
+// second.
+TEST_F(Tap, AnAccelerationThatFallsWithTheSpeedIsThatOfTheHighestSpeedOfTheTap) {
+  parameters->values[105971] = {1, ""};
+  parameters->values[105972] = {200, ""}, parameters->values[105973] = {4000, ""};
+  for (const double override_ : {1.0, 1.5}) {
+    drive = testing::FakeDrive(3);
+    begin();
+    load(hole);
+    ask(CommandKind::SPINDLE_OVERRIDE, "", override_);
+    ask(CommandKind::CYCLE_START);
+    run();
+    const auto rows = coupled();
+    ASSERT_GT(rows.size(), 1000u);
+    for (std::size_t i = 2; i < rows.size(); ++i) {
+      const double before = (rows[i - 1].second - rows[i - 2].second) * 60000;
+      const double now = (rows[i].second - rows[i - 1].second) * 60000;
+      ASSERT_LE(std::abs(now - before), 4000.0 / 6000 * (1 + 1e-3)) << "in a cycle of 1 ms";
+    }
+  }
+}
+
+TEST_F(Tap, ASpindleThatTurnsIsNotCoupled) {
+  drive.spindle_speed = [] { return -1000.0; };
+  start(hole);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().alarm, &alarm::tapping_spindle_turns);
+  EXPECT_NE(events.back().text.find("S turns at -1000 1/min"), std::string::npos) << events.back().text;
+  EXPECT_TRUE(coupled().empty());
+  EXPECT_EQ(drive.rows.back()[2], 2);
+}
+
+// Feedback from before the PLC's answer says that the spindle turns: the first three messages at R.
+TEST_F(Tap, ASpindleThatHasComeToRestIsCoupledWhateverTheFeedbackOfBeforeSays) {
+  int older = 3;
+  drive.spindle_speed = [&] {
+    const bool at_hole = !drive.rows.empty() && drive.rows.back()[2] == 2;
+    return at_hole && older-- <= 0 ? 4.0 : 900.0;
+  };
+  start(hole);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_TRUE(events.empty());
+  EXPECT_LT(older, 0);
+  EXPECT_FALSE(coupled().empty());
+  EXPECT_EQ(drive.rows.back()[2], 20);
+}
+
 TEST_F(Tap, ANumTapComesOutAtItsOwnSpeedAndTheSpindleTurnsAgainOrNot) {
   parameters->values[40959] = {1, ""};
   for (const bool stops : {false, true}) {
@@ -236,8 +348,7 @@ TEST_F(Tap, AResetAbandonsATapThatThePlcHasStoppedAndOtherMovesAreNotStopped) {
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   EXPECT_EQ(drive.rows.back()[2], stopped);
-  start("G90 G0 Z20\nM30\n");
-  run();
+  by_hand("G90 G0 Z20");
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   EXPECT_EQ(drive.rows.back()[2], 20);
 }
@@ -293,6 +404,96 @@ TEST_F(Tap, ATapThatWasLeftComesOutOnlyAlongItsThreadAlsoInAnotherProcess) {
   EXPECT_NEAR(drive.rows.back()[2], from + 24, 1e-9);
 }
 
+// The hole begins at Z2. A program would start with the spindle at rest; by hand the axes move as ever.
+TEST_F(Tap, WithATapInItsHoleNoProgramStartsButItsRemoval) {
+  leave_tap_in_hole();
+  const double depth = 2 - drive.rows.back()[2];
+  ASSERT_GT(depth, 7);
+  const auto tap = core->tap().words(depth);
+  EXPECT_EQ(core->state().detail, "a tap is in its hole: " + tap + "; G84.9 or G39+ removes it");
+  const auto answer = ask(CommandKind::START_FROM_LINE, "", 3);
+  EXPECT_FALSE(answer.accepted);
+  EXPECT_EQ(answer.alarm, alarm::tap_removal_thread.number);
+  EXPECT_EQ(answer.reason,
+            "A tap is in its hole: " + tap + ". Remove it with G84.9 (NUM: G39+) by MDI, then start");
+  const auto moved = drive.rows.size();
+  for (const char* program :
+       {"G90 G0 Z20\nM30\n", "G91 G1 X1 F100\nM30\n", "G90 G95 S400\nG99 G84 Z-20 R-6 F1.25\nM30\n",
+        "G91 G95 S400\nG99 G84 Z-5 R0 F1.25\nM30\n"}) {
+    events.clear();
+    start(program);
+    run();
+    EXPECT_EQ(core->run_state(), RunState::IDLE);
+    ASSERT_FALSE(events.empty()) << program;
+    EXPECT_EQ(events.back().alarm, &alarm::tap_removal_thread) << program;
+    EXPECT_NE(events.back().text.find(tap), std::string::npos) << events.back().text;
+    EXPECT_EQ(drive.rows.size(), moved) << program;
+  }
+  by_hand("G90 G0 Z20");
+  EXPECT_EQ(drive.rows.back()[2], 20);
+  EXPECT_EQ(core->state().detail, "");
+  events.clear();
+  start("G90 G0 Z5\nM30\n");
+  run();
+  EXPECT_TRUE(events.empty());
+  EXPECT_EQ(drive.rows.back()[2], 5);
+  EXPECT_EQ(core->tap(), program_execution::TapInHole{}) << "it was removed otherwise";
+}
+
+TEST_F(Tap, BehindTheRemovalOfItsTapAProgramGoesOn) {
+  leave_tap_in_hole();
+  start("S200\nG84.9 Z12 K1.25\nG90 G0 X5\nM30\n");
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_TRUE(events.empty());
+  EXPECT_EQ(drive.rows.back()[0], 5);
+}
+
+TEST_F(Tap, AnInterruptionTellsOfTheTapThatIsInItsHoleAndSoDoesTheOfferOfItsLine) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  events.clear();
+  drive.mode = DriveMode::OFF;
+  for (int i = 0; i < 2; ++i) round();
+  const auto tap = "; a tap is in its hole: " + core->tap().words(2 - drive.rows.back()[2]);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().alarm, &alarm::interrupted);
+  EXPECT_EQ(events.back().text, "The drives were switched off" + tap);
+  ask(CommandKind::RESET);
+  round();
+  const auto kept = core->running_program();
+  EXPECT_EQ(kept.line, 3u);
+  events.clear();
+  begin(kept);
+  round();
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().alarm, &alarm::switched_off_in_program);
+  EXPECT_EQ(events.back().text, "Program part.nc was in line 3 when the control was switched off" + tap +
+                                    ". Remove it with G84.9 (NUM: G39+) by MDI, then start from there");
+}
+
+// The M3 behind the hole has not been answered when the process is killed.
+TEST_F(Tap, AProgramGoesOnBehindAWholeHoleInAnotherProcess) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  answer_plc = false;
+  for (int i = 0; i < 100000 && m_codes() != std::vector<int>{3, 5, 3}; ++i) round();
+  ASSERT_EQ(m_codes(), (std::vector<int>{3, 5, 3}));
+  EXPECT_EQ(core->link().snapshot().fraction, 1);
+  answer_plc = true;
+  events.clear();
+  begin(core->running_program());
+  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[2], 20);
+  for (const auto& event : events) EXPECT_NE(event.alarm, &alarm::not_resumable) << event.text;
+  EXPECT_EQ(m_codes(), (std::vector<int>{3, 5, 3, 3, 30}));
+}
+
 TEST_F(Tap, NoTapIsLeftBehindAWholeHole) {
   start(hole);
   run();
@@ -321,10 +522,8 @@ TEST_F(Tap, ResetInTheThreadStopsBothInStep) {
   EXPECT_GT(drive.rows.back()[2], -10);
   for (const auto& [z, turns] : coupled()) ASSERT_NEAR(2 - z, 1.25 * turns, 1e-9);
   // Then the axes have their own limits again: 1 mm takes less time than the spindle would need.
-  load("G90 G1 Z0 F24000\nM30\n");
   const auto before = drive.rows.size();
-  ask(CommandKind::CYCLE_START);
-  run();
+  by_hand("G90 G1 Z0 F24000");
   EXPECT_EQ(drive.rows.back()[2], 0);
   EXPECT_LT(drive.rows.size() - before, 400u);
 }

@@ -36,6 +36,9 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   for (std::size_t i = 0; i < axes_.size(); ++i) limits_[i] = axis_limits(p, axes_[i].number);
   slaves_.configure(p, axes_.size());
   spindles_.configure(p, dt_);
+  for (std::size_t i = 0; i < spindles_.size(); ++i)
+    spindles_.coupling(static_cast<int>(i))
+        .configure(p.get(parameter::following_error_limit, spindles_.axes()[i].number));
   spindles_.report_parameters(events_);
   row_.spindles.resize(spindles_.size());
   hardware_->configure(p, axes_, spindles_.axes(), dt_);

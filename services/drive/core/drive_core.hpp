@@ -175,6 +175,7 @@ class DriveCore {
   void switch_off();
   void stop_at_newest_row(std::uint64_t starved);
   void supervise();
+  void supervise_spindles();
   bool spindles_run_down() const;
   bool testing() const { return hardware_->tester() != nullptr && hardware_->tester()->running(); }
   void watch_probe();

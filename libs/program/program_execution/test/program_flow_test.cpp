@@ -540,6 +540,63 @@ TEST_F(Flow, ATapIsAMoveOnlyWhileTappingAndCannotBeRestartedInTheThread) {
   EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::not_resumable));
 }
 
+// Of the way out all is done: what comes behind it continues. Behind the way in the tap is in the hole.
+TEST_F(Flow, ARestartBehindAWholeTapContinuesAndOneAtItsBottomDoesNot) {
+  const std::string program = "G90 G94 S400 M3\nG0 Z5\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\nG0 X7\n";
+  start(program);
+  for (int i = 0; i < 5 && run() == FlowState::command && flow.pending().kind != CommandKind::tap; ++i)
+    flow.finish_pending();
+  ASSERT_EQ(flow.pending().kind, CommandKind::tap);
+  const auto in = flow.pending();
+  Entry entry;
+  entry.restart = {in.sequence, 1, in.target};
+  start(program, entry);
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::not_resumable));
+  // The way out is the next command.
+  AxisValues out{};
+  out[language::Z] = 2;
+  entry.restart = {in.sequence + 1, 1, out};
+  start(program, entry);
+  ASSERT_EQ(run(), FlowState::command);
+  EXPECT_FALSE(flow.searching());
+  EXPECT_EQ(flow.pending().kind, CommandKind::auxiliary);
+  EXPECT_EQ(flow.pending().number, 3u) << "the spindle turns again";
+  EXPECT_EQ(trajectory->position()[language::Z], 2);
+  flow.finish_pending();
+  EXPECT_EQ(run(), FlowState::end);
+  EXPECT_EQ(x(), 7);
+  EXPECT_EQ(trajectory->position()[language::Z], 2);
+}
+
+TEST_F(Flow, WithATapInItsHoleOnlyItsRemovalMayMove) {
+  const std::string tap = "right-hand thread, lead 1.25 mm, 6.500 mm deep";
+  for (const char* wrong : {"G90 G0 Z5\n", "G90 G1 X1 F100\n", "G90 G17 G2 X2 I1 F100\n", "G31 Z5 F100\n",
+                            "S200 M3 G33 Z5 F2\n", "G28.2 Z0\n"}) {
+    flow.set_tap_in_hole(tap);
+    start(wrong);
+    FlowState state = run();
+    for (int i = 0; i < 5 && state == FlowState::command && flow.pending().kind != CommandKind::home; ++i) {
+      flow.finish_pending();
+      state = run();
+    }
+    EXPECT_EQ(state, FlowState::alarm) << wrong;
+    EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::tap_removal_thread)) << wrong;
+    EXPECT_NE(flow.alarm_text().find(tap), std::string::npos) << flow.alarm_text();
+    EXPECT_TRUE(moves.empty()) << wrong;
+  }
+  start("S200 M8\nG4 P10\nG84.9 Z12 K1.25\nG0 X7\n");
+  for (int i = 0; i < 5 && run() == FlowState::command && flow.pending().kind != CommandKind::tap; ++i)
+    flow.finish_pending();
+  ASSERT_EQ(flow.pending().kind, CommandKind::tap);
+  flow.set_tapping(true);
+  EXPECT_EQ(run(), FlowState::command) << "X7 waits until the tap is out";
+  flow.set_tap_in_hole("");
+  flow.set_tapping(false);
+  EXPECT_EQ(run(), FlowState::end);
+  EXPECT_EQ(x(), 7);
+}
+
 // Whoever ends the tapping does not begin it again with the same stroke.
 TEST_F(Flow, AnAlarmOfAStrokeLastsWhenTheTappingHasEnded) {
   start("G90 G94 S400 M3\nG0 Z5\nG99 G84 X0 Y0 Z-410 R2 F500\nG80\n");
@@ -618,6 +675,59 @@ TEST_F(ThreadFlow, AnExactStopAndAnotherCommandEndAThread) {
       run();
     }
   }
+}
+
+// 64 blocks are one thread. Behind them another one would begin, at its own angle.
+TEST_F(ThreadFlow, TheSixtyFifthBlockOfAThreadIsRefusedBeforeItBegins) {
+  flow.set_coupled_threads(true);
+  const auto blocks = [](int count) {
+    std::string program = "G90 S100 M3\nG33 Z-1 F1\n";
+    for (int i = 2; i <= count; ++i) program += "Z-" + std::to_string(i) + "\n";
+    return program;
+  };
+  reach_thread(blocks(64) + "G0 X1\n");
+  flow.set_threading(true);
+  EXPECT_EQ(flow.fill(false), FlowState::full);
+  EXPECT_EQ(flow.legs().size(), 64u);
+  reach_thread(blocks(65));
+  flow.set_threading(true);
+  EXPECT_EQ(flow.fill(false), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::thread_impossible));
+  EXPECT_EQ(flow.placed_alarm().line, 66u);
+  EXPECT_NE(flow.alarm_text().find("more than 64 blocks"), std::string::npos) << flow.alarm_text();
+}
+
+TEST_F(ThreadFlow, ARestartBehindAWholeThreadContinues) {
+  flow.set_coupled_threads(true);
+  const std::string program = "G90 S100 M3\nG33 Z-5 F2\nG9 Z-9\nG33 Z-12\nM5\nG0 X20\n";
+  reach_thread(program);
+  const auto first = flow.pending();
+  // At the end of the first block the same thread goes on; behind the exact stop it is another one.
+  Entry entry;
+  entry.restart = {first.sequence, 1, first.target};
+  start(program, entry);
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::not_resumable));
+  AxisValues at{};
+  at[language::Z] = -9;
+  entry.restart = {first.sequence + 1, 1, at};
+  start(program, entry);
+  ASSERT_EQ(run(), FlowState::command);
+  EXPECT_EQ(flow.pending().kind, CommandKind::thread);
+  EXPECT_EQ(flow.executing().spindle_speed, 100);
+  at[language::Z] = -12;
+  entry.restart = {first.sequence + 2, 1, at};
+  start(program, entry);
+  ASSERT_EQ(run(), FlowState::command);
+  EXPECT_EQ(flow.pending().number, 5u) << "M5";
+  flow.finish_pending();
+  EXPECT_EQ(run(), FlowState::end);
+  EXPECT_EQ(x(), 20);
+  EXPECT_EQ(trajectory->position()[language::Z], -12);
+  // Not all of it is done.
+  entry.restart = {first.sequence + 2, 0.999999, at};
+  start(program, entry);
+  EXPECT_EQ(run(), FlowState::alarm);
 }
 
 /// The same with the NUM dialect.

@@ -42,6 +42,12 @@ TEST(TapInHole, ComesOutTheOtherWayRoundAndInTheOtherDirection) {
   EXPECT_TRUE(left.contradicts(inside, out, -1.25));
 }
 
+TEST(TapInHole, TellsTheOperatorHandLeadAndDepth) {
+  EXPECT_EQ(tap_of_hole.words(6.5), "right-hand thread, lead 1.25 mm, 6.500 mm deep");
+  EXPECT_EQ(TapInHole::of(-0.75, at(0, 0, 0), at(0, 0, -8)).words(0.25),
+            "left-hand thread, lead 0.75 mm, 0.250 mm deep");
+}
+
 TEST(TapInHole, IsNoneOfAStrokeWithoutLength) {
   EXPECT_EQ(TapInHole::of(1, at(1, 2, 3), at(1, 2, 3)), TapInHole{});
 }

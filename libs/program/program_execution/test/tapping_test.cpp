@@ -48,6 +48,24 @@ TEST(Tapping, TheRemovalOfATapIsOneStrokeInItsDirection) {
   EXPECT_DOUBLE_EQ(Tapping::line(out).modal.feed, 240);
 }
 
+// 1.25 mm times 9000 deg/s2 are 31.25 mm/s2, of 4500 deg/s2 half of that.
+TEST(Tapping, TheAccelerationIsThatOfTheFastestSpeedOfTheHole) {
+  EXPECT_EQ(Tapping::fastest(stroke_to(-20, 1.25), 0), 750) << "500 1/min with an override of 150 %";
+  EXPECT_EQ(Tapping::fastest(stroke_to(-20, 1.25), 700), 700);
+  auto in = stroke_to(-20, 1.25);
+  in.hole_speed = 1250;
+  EXPECT_EQ(Tapping::fastest(in, 0), 1875) << "it comes out at 1250 1/min";
+  EXPECT_EQ(Tapping::fastest(in, 4000), 1875);
+  in.hole_speed = 250;
+  EXPECT_EQ(Tapping::fastest(in, 0), 750) << "it comes out more slowly";
+  Tapping tapping;
+  tapping.begin({}, in, 700);
+  EXPECT_EQ(tapping.highest_speed(), 700);
+  motion::Limits limits;
+  EXPECT_DOUBLE_EQ(tapping.limits(limits, 9000).axes[language::Z].acceleration, 31.25);
+  EXPECT_DOUBLE_EQ(tapping.limits(limits, 4500).axes[language::Z].acceleration, 15.625);
+}
+
 TEST(Tapping, TheOverrideDoesNotTakeTheSpindleAboveItsHighestSpeed) {
   EXPECT_EQ(Tapping::override_of(1.5, 500, 0), 1.5) << "no limit";
   EXPECT_EQ(Tapping::override_of(1.5, 500, 750), 1.5);
