@@ -94,12 +94,13 @@ async function alarmsAndStops(page, url) {
   await fetch(`${url}api/programs/page_test.nc`, { method: "PUT", body: "G0 X0\nM30\n" });
   const listed = () => fetch(`${url}api/programs`).then((answer) => answer.json());
   await eventually("the program is listed", async () => (await listed()).programs.some((one) => one.name === "page_test.nc"));
-  await upload("G1 X100 F1\nG1 X-100\nM30\n");  // hours of motion: a cluster in virtual time may be fast
+  // Days of motion: a cluster in virtual time passes an hour in 20 s.
+  await upload("G1 X100 F0.01\nG1 X-100\nM30\n");
   const question = page.getByRole("alertdialog", { name: /page_test.nc is stored already/ });
   await question.waitFor();
   check("a question covers no key that stops", (await coveredStops(page)).length === 0);
   await question.getByRole("button", { name: "Replace" }).click();
-  await eventually("the program is replaced", async () => (await (await fetch(`${url}api/programs/page_test.nc`)).text()).includes("F1"));
+  await eventually("the program is replaced", async () => (await (await fetch(`${url}api/programs/page_test.nc`)).text()).includes("F0.01"));
   await page.getByRole("button", { name: "Select…" }).click();
   await page.getByRole("button", { name: /^page_test.nc/ }).click();
   await page.getByRole("button", { name: "Auto", exact: true }).click();
