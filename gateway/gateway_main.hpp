@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the gateway's main() does, also for gateways of tests that show something else.
 #pragma once
 
-#include "cluster_side/cluster_view.hpp"
+#include "cluster_view.hpp"
 
 namespace trunnion {
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that turn a rotary axis about a ball: `trunnion measure k-test` and `r-test`.
 #pragma once
 
 #include "commands.hpp"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl+C in a command that still has to stop axes or a cluster before it ends.
 #pragma once
 
 namespace trunnion::cli {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "cluster_side/mailbox.hpp"
+#include "mailbox.hpp"
 #include "mtconnect/agent.hpp"
 
 namespace trunnion::gateway::mtconnect {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// The process of the gantry: the stage that adds the setpoints of slave axes.
 #pragma once
 
 #include <map>

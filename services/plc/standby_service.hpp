@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PLC on standby, compared with the running one in a swap.
 #pragma once
 
 #include "round_link.hpp"

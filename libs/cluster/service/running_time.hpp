@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clock that stands still while the process does.
 #pragma once
 
 #include <algorithm>

@@ -6,9 +6,8 @@
 namespace trunnion::drive {
 namespace {
 // Written where there is something. It is behind the rest, as recordings have it.
-constexpr const char* rare[] = {"homing_members",  "homing_channel",  "unsettled", "off_periods",
-                                "slaves",          "after_alignment", "ramps",     "gears",
-                                "synchronization", "surface"};
+constexpr const char* rare[] = {"homing_members", "homing_channel", "unsettled",
+                                "off_periods",    "slaves",         "after_alignment"};
 
 void put_last(bus::Json& state, const std::string& name) {
   const auto found = state.find(name);

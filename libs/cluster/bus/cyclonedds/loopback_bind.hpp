@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps Cyclone DDS on the loopback interface: it binds its sockets to no address.
 #pragma once
 
 namespace trunnion::bus {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who has written a message, from the discovery of Cyclone DDS.
 #pragma once
 
 #include <dds/dds.h>

@@ -106,7 +106,6 @@ struct VariableDeclaration {
   std::string name, text;  ///< in capitals, as written
   Position at;
   std::string location;  ///< of AT, without percent sign
-  std::string global;    ///< of VAR_EXTERNAL in a namespace: the whole name of the global variable
   Position location_at;
   InputEdge edge = InputEdge::none;
   Position edge_at;
@@ -127,7 +126,6 @@ struct TypeSpec {
   Kind kind = Kind::named;
   Position at;
   std::string name, text;   ///< of named; of an enumeration the type of its values, if it says one
-  std::string space;        ///< of an enumeration: the namespace of its values, in capitals
   ExpressionPtr low, high;  ///< of a subrange
   std::vector<Dimension> dimensions;
   TypeSpecPtr element;   ///< of an array, a reference or a pointer
@@ -140,14 +138,13 @@ struct TypeSpec {
 
 enum class VariableSection { local, input, output, in_out, temporary, global, external };
 
-/// From where a method or a variable of VAR is used; INTERNAL is public_ within its namespace.
+/// From where a method or a variable of VAR is used; INTERNAL is public_, as there are no namespaces.
 enum class Access { public_, protected_, private_ };
 
 struct VariableBlock {
   VariableSection section = VariableSection::local;
   Access access = Access::protected_;
-  bool retain = false, constant = false, is_internal = false;
-  std::size_t scope = 0;  ///< of VAR_GLOBAL: one of SourceTree::scopes
+  bool retain = false, constant = false;
   Position at;
   std::vector<VariableDeclaration> variables;
   std::vector<TypeSpecPtr> types;
@@ -156,7 +153,7 @@ struct VariableBlock {
 
 enum class PouKind { program, function, function_block, test, method };
 
-/// A name behind EXTENDS, IMPLEMENTS or USING.
+/// A name behind EXTENDS or IMPLEMENTS.
 struct NamedPlace {
   std::string name, text;
   Position at;
@@ -172,9 +169,7 @@ struct PouDeclaration {
   Statements body;
   Position end;
   Access access = Access::public_;  ///< of a method
-  bool is_class = false, is_final = false, is_abstract = false, overrides = false, is_internal = false;
-  std::size_t scope = 0;                ///< one of SourceTree::scopes
-  std::string space;                    ///< the namespace, in capitals
+  bool is_class = false, is_final = false, is_abstract = false, overrides = false;
   NamedPlace extends;                   ///< of a function block; without a name: none
   std::vector<NamedPlace> implements;   ///< interfaces
   std::vector<PouDeclaration> methods;  ///< of a function block
@@ -184,8 +179,6 @@ struct PouDeclaration {
 struct InterfaceDeclaration {
   std::string name, text;
   Position at;
-  bool is_internal = false;
-  std::size_t scope = 0;  ///< one of SourceTree::scopes
   std::vector<NamedPlace> extends;
   std::vector<PouDeclaration> methods;
 };
@@ -193,8 +186,6 @@ struct InterfaceDeclaration {
 struct TypeDeclaration {
   std::string name, text;
   Position at;
-  bool is_internal = false;
-  std::size_t scope = 0;  ///< one of SourceTree::scopes
   TypeSpecPtr type;
   ExpressionPtr initial;
 };
@@ -222,23 +213,12 @@ struct ProgramConfiguration {
 struct ConfigurationDeclaration {
   std::string text;
   Position at;
-  std::size_t scope = 0;  ///< one of SourceTree::scopes
   std::vector<TaskDeclaration> tasks;
   std::vector<ProgramConfiguration> programs;
 };
 
-/// Where names mean the same: a source, a piece of a namespace, or a unit with a USING of its own.
-struct NamingScope {
-  std::string name, text;  ///< of the namespace with those around it, in capitals and as written
-  Position at;
-  bool is_internal = false;
-  std::size_t outer = 0;
-  std::vector<NamedPlace> usings;
-};
-
-/// Everything that the sources declare. Names are whole ones, with their namespaces, behind resolve_names().
+/// Everything that the sources declare.
 struct SourceTree {
-  std::vector<NamingScope> scopes = std::vector<NamingScope>(1);  ///< the first one is around all
   std::vector<TypeDeclaration> types;
   std::vector<VariableBlock> globals;
   std::vector<PouDeclaration> pous;
