@@ -8,18 +8,18 @@
 #include <map>
 #include <string>
 
-#include "access_control.hpp"
 #include "answer.hpp"
-#include "bodies.hpp"
 #include "bus/json.hpp"
+#include "cluster_side/mailbox.hpp"
 #include "core/router.hpp"
-#include "mailbox.hpp"
-#include "measurement.hpp"
-#include "operating_control.hpp"
-#include "plc_online.hpp"
-#include "program_checker.hpp"
-#include "program_planner.hpp"
-#include "recordings.hpp"
+#include "operators/access_control.hpp"
+#include "operators/operating_control.hpp"
+#include "programs/program_checker.hpp"
+#include "programs/program_planner.hpp"
+#include "resources/bodies.hpp"
+#include "resources/measurement.hpp"
+#include "resources/plc_online.hpp"
+#include "resources/recordings.hpp"
 
 namespace trunnion::gateway {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// What the gateway's main() does, also for gateways of tests that show something else.
 #pragma once
 
-#include "cluster_view.hpp"
+#include "cluster_side/cluster_view.hpp"
 
 namespace trunnion {
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "alarm_file.hpp"
 #include "api.hpp"
-#include "cluster_view.hpp"
+#include "cluster_side/alarm_file.hpp"
+#include "cluster_side/cluster_view.hpp"
 #include "http/server.hpp"
 #include "http/tls_certificate.hpp"
 #include "mtconnect/server.hpp"

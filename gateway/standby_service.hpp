@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// The gateway on standby, which `trunnion swap gateway` compares with the one that runs.
 #pragma once
 
-#include "cluster_view.hpp"
+#include "cluster_side/cluster_view.hpp"
 #include "core/lasting_difference.hpp"
 #include "http_client/client.hpp"
 #include "service/node.hpp"

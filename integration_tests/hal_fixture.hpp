@@ -113,7 +113,7 @@ struct Hal : ::testing::Test {
         answer = e.what();
       }
       return answer.find("without a reference: " + axes + ".") != std::string::npos &&
-             answer.find("(alarm 115)") != std::string::npos;
+             answer.find("(alarm 1142)") != std::string::npos;
     })) << answer
         << cluster->told();
   }

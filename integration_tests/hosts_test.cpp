@@ -233,11 +233,7 @@ TEST_F(Hosts, ASecuredHostThatIsCutOffForThreeSecondsTakesPartAgainAfterAReset) 
   {
     Cluster cluster(network);
     ASSERT_NO_FATAL_FAILURE(cut_off_motion(hosts, cluster));
-    ASSERT_TRUE(cluster.until([&] {
-      cluster.reset_alarms();
-      return cluster.active_alarms().empty();
-    })) << cluster.told();
-    cluster.start_text(sweep);
+    ASSERT_TRUE(cluster.reset_and_start_text(sweep)) << cluster.told();
     EXPECT_TRUE(cluster.finish()) << cluster.told();
     EXPECT_EQ(cluster.active_alarms(), "");
   }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every machine starts, runs its short program in virtual time and stops; wrong input stops it with one line.
+#include <algorithm>
+#include <cmath>
+
 #include "cluster_harness.hpp"
+#include "machine_copy.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -50,6 +54,110 @@ TEST(Machines, TwoChannelsRunTwoProgramsAtOnce) {
     together += moved(0, 1) && moved(3, 4) ? 1u : 0u;
   }
   EXPECT_GT(together, 500u) << "cycles in which both channels moved";
+}
+
+// X words are diameters, and G54 lies at Z 120: the face is turned to X-1, the bar to Z-40. Corners may be
+// cut by 0.01 mm.
+TEST(Machines, TheLatheTurnsAShaft) {
+  Cluster cluster("lathe");
+  cluster.keep_rows = true;
+  cluster.start("turning.nc");
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  EXPECT_EQ(cluster.active_alarms(), "");
+  double x = 1e9, z = 1e9;
+  for (const auto& row : cluster.every_row()) x = std::min(x, row[0]), z = std::min(z, row[1]);
+  EXPECT_NEAR(x, -0.5, 0.011);
+  EXPECT_NEAR(z, 80, 0.011);
+  EXPECT_NEAR(cluster.every_row().back()[0], 150, 1e-9);
+  EXPECT_NEAR(cluster.every_row().back()[1], 400, 1e-9);
+}
+
+// The sub-spindle is 0.1 % slow (truth.yaml), and 10a974 is 0.5 deg.
+TEST(Machines, TheSubSpindleOfTheLatheTakesThePartOverAtItsAngle) {
+  Cluster cluster("lathe");
+  double least = 1e9, worst = 0;
+  std::size_t over_the_part = 0, synchronized = 0;
+  cluster.on_batch = [&](const idl::stream::Feedback& feedback) {
+    if (feedback.count == 0 || feedback.spindles.size() < 2) return;
+    const double w = feedback.commanded[(feedback.count - 1) * feedback.axis_count + 2];
+    least = std::min(least, w);
+    if (w > 106) return;
+    const auto& sub = feedback.spindles[1];
+    ++over_the_part;
+    synchronized += sub.condition == idl::stream::SpindleCondition::SPINDLE_SYNCHRONIZED ? 1u : 0u;
+    worst = std::max(worst, std::abs(sub.synchronization_error));
+  };
+  cluster.start("takeover.nc");
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  EXPECT_EQ(cluster.active_alarms(), "");
+  EXPECT_NEAR(least, 105, 1e-9);
+  EXPECT_GT(over_the_part, 0u);
+  EXPECT_EQ(synchronized, over_the_part);
+  EXPECT_LT(worst, 0.5 / 360);
+}
+
+// Every pass begins at Z6, which is 126 in the machine, and X is below 10 only while it cuts: a radius, of
+// words up to X19.4. On the pitch line of the index mark the main spindle has turned once for each 1.5 mm.
+// Run-in and run-out are below 1 mm of the 36, and 25 mm at 20 um in a cycle are 1250 rows of each of the
+// four passes.
+TEST(Machines, TheLatheCutsAThreadOnOnePitchLineInAllPasses) {
+  constexpr double start = 126, lead = 1.5;  // mm
+  Cluster cluster("lathe");
+  std::size_t passes = 0, rows = 0;
+  bool within = false;
+  double worst = 0;  // mm
+  cluster.on_batch = [&](const idl::stream::Feedback& feedback) {
+    const std::size_t spindles = feedback.spindles.size();
+    if (spindles != 2 || feedback.spindle_angle.size() < feedback.count * spindles) return;
+    for (std::size_t i = 0; i < feedback.count; ++i) {
+      const double* axes = &feedback.actual[i * feedback.axis_count];
+      const double depth = start - axes[1];
+      const bool cuts = axes[0] < 10 && depth > 5 && depth < 30;
+      passes += cuts && !within ? 1u : 0u;
+      within = cuts;
+      if (!cuts) continue;
+      ++rows;
+      const double angle = feedback.spindle_angle[i * spindles];
+      worst = std::max(worst, std::abs(lead * std::remainder(angle - depth / lead, 1.0)));
+    }
+  };
+  cluster.start("thread.nc");
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  EXPECT_EQ(cluster.active_alarms(), "");
+  EXPECT_TRUE(cluster.rests()) << cluster.told();
+  EXPECT_EQ(cluster.lost_batches, 0u);
+  EXPECT_EQ(passes, 4u);
+  EXPECT_GE(rows, 4900u);
+  EXPECT_LT(worst, 0.01);
+}
+
+// The example of NUM 938989/0, chapter 3.4.2, as printed but for the % of its first S50%, a misprint. The
+// marks pass within a revolution at 50 1/min. 2000 1/min need the other gear, for which both spindles stop.
+TEST(Machines, TheLatheRunsTheSynchronizationOfTheNumManual) {
+  const MachineCopy machine("lathe");
+  machine.append("parameters.yaml") << "\"040959\": 1\n";
+  Cluster cluster(machine.path());
+  bool slow = false, fast = false;
+  cluster.on_batch = [&](const idl::stream::Feedback& feedback) {
+    if (feedback.spindles.size() < 2) return;
+    const auto& leader = feedback.spindles[0];
+    const auto& sub = feedback.spindles[1];
+    if (sub.condition != idl::stream::SpindleCondition::SPINDLE_SYNCHRONIZED || sub.master != 0) return;
+    slow = slow || std::abs(leader.reference + 100) < 1;
+    fast = fast || std::abs(leader.reference - 2000) < 1;
+  };
+  cluster.start_text(
+      "(SPEED CONTROLLED SPINDLE SYNCHRONISATION)\n(MASTER = B1 SLAVE = B2)\n"
+      "WHILE E91124=1 DO $Homing on spindle 1\nM64M40M3S50\nENDW\n"
+      "WHILE E91125=1 DO $Homing on broche 2\nM65M40M3S50\nENDW\n"
+      "E94124=-1\nE94125=-1\nE91024=0\nE91025=0\nE90330=20000\nE90331=20000\nE90370=1500\nE90371=1500\n"
+      "E90380=4000\nE90381=4000\nE90321=500\nE98025=500\nE90360=1\nE90361=1000\n"
+      "M64 M40 M4 S100 EC0\nM65 M40 M4 S100\nE94125=24\nWHILE E93525=0 DO G4 F.5 $\nENDW\n$SYNCHRO OK\n"
+      "M64 M40 M3 S2000\nWHILE E93525=0 DO G4 F.5 $Wait for synchronisation at 2000 rpm\nENDW\n"
+      "E98025=-E98025\nG4 F5\nE98025=-E98025\nG4 F5\nM2\n");
+  ASSERT_TRUE(cluster.finish(0, 300)) << cluster.told();
+  EXPECT_TRUE(slow) << cluster.told();
+  EXPECT_TRUE(fast) << cluster.told();
 }
 
 // A process of another make writes what no field can have: nothing of it takes effect, no service ends, and

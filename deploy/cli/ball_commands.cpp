@@ -17,7 +17,7 @@
 #include "identification/k_test.hpp"
 #include "interrupt_watch.hpp"
 #include "machine/kinematics.hpp"
-#include "machine_tests/r_test.hpp"
+#include "machine_tests/r_test_run.hpp"
 #include "report/servo_pictures.hpp"
 #include "storage/file.hpp"
 #include "true_machine.hpp"
@@ -205,7 +205,7 @@ int r_test(CommandOptions o, const Common& common) {
       throw std::runtime_error("--stops: the study compares with at least 4 stops");
     return r_test_study(test, o, session.machine(), common.json);
   }
-  const auto found = machine_tests::r_test(test, o.feed, o.stops, {o.cutoff});
+  const auto found = machine_tests::run_r_test(test, o.feed, o.stops, {o.cutoff});
   const auto& motion = found.motion;
   const auto& result = found.result;
   const auto& stops = found.stops;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tests that turn a rotary axis about a ball: `trunnion measure k-test` and `r-test`.
 #pragma once
 
 #include "commands.hpp"

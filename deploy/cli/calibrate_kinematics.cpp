@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // calibrate kinematics: touches of a sphere over poses of the rotary axes
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <ctime>
 #include <iostream>
 #include <memory>
@@ -23,6 +22,7 @@
 #include "measurement_session.hpp"
 #include "report/residual_picture.hpp"
 #include "storage/file.hpp"
+#include "text/instant.hpp"
 #include "variables_command.hpp"
 
 namespace trunnion::cli {
@@ -71,20 +71,12 @@ calibration::MeasurementInputs inputs_of(const KinematicsOptions& o,
 
 // "2026-01-31T12:00:00", by the clock when it is not given.
 std::pair<std::string, std::string> date_of(const std::string& given) {
-  std::string text = given;
-  if (text.empty()) {
-    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char buffer[40];
-    std::strftime(buffer, sizeof buffer, "%Y-%m-%dT%H:%M:%S", &parts);
-    text = buffer;
-  }
+  const std::string date = given.empty() ? text::whole_second(std::time(nullptr)).substr(0, 19) : given;
   std::tm parts{};
-  const char* end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%S", &parts);
-  if (end == nullptr || *end != 0 || text.size() != 19)
-    throw std::runtime_error("--date " + text + ": expected YYYY-MM-DDTHH:MM:SS");
-  return {text.substr(0, 10), text.substr(11)};
+  const char* end = strptime(date.c_str(), "%Y-%m-%dT%H:%M:%S", &parts);
+  if (end == nullptr || *end != 0 || date.size() != 19)
+    throw std::runtime_error("--date " + date + ": expected YYYY-MM-DDTHH:MM:SS");
+  return {date.substr(0, 10), date.substr(11)};
 }
 
 // That of the file, unless the inputs have it.

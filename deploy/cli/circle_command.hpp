@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Circular tests with the axes of a cluster: `trunnion measure circle`.
 #pragma once
 
 #include "commands.hpp"

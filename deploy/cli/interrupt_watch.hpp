@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Ctrl+C in a command that still has to stop axes or a cluster before it ends.
 #pragma once
 
 namespace trunnion::cli {

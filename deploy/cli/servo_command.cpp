@@ -74,8 +74,8 @@ int run_test(const ServoOptions& o, const Common& common,
   if (!o.plot.empty()) storage::replace_file(o.plot, report::picture_of(found.picture));
   if (o.write && !found.proposal.empty()) session.write(found.proposal, "servo " + found.test);
   if (common.json) {
-    bus::Json out = {
-        {"machine", session.machine()}, {"test", found.test}, {"axes", o.axes}, {"reached", found.reached()}};
+    bus::Json out = {{"machine", session.machine()}, {"test", found.test}, {"reached", found.reached()}};
+    if (!o.axes.empty()) out["axes"] = o.axes;
     for (const auto& f : found.figures) out["figures"].push_back(json_of(f));
     out["notes"] = found.notes;
     out["proposal"] = json_of(found.proposal);
@@ -160,14 +160,48 @@ int tune(const ServoOptions& o, const Common& common) {
   return reached ? 0 : 1;
 }
 
-void add_common(CLI::App* command, ServoOptions& o) {
+void add_machine(CLI::App* command, ServoOptions& o) {
   command->add_option("machine", o.machine,
                       "Name under configs/machines or a directory: a cluster of its own in virtual "
                       "time; without it the cluster that runs");
+  command->add_option("--channel", o.channel, "Channel (default 0)")->check(CLI::Range(0, 9));
+}
+
+void add_common(CLI::App* command, ServoOptions& o) {
+  add_machine(command, o);
   command->add_option("--axis", o.axes, "Letter of the axis; may be repeated, `all` for tune")
       ->required()
       ->allow_extra_args(false);
-  command->add_option("--channel", o.channel, "Channel (default 0)")->check(CLI::Range(0, 9));
+}
+
+void add_plot(CLI::App* command, ServoOptions& o) {
+  command->add_option("--plot", o.plot, "Write the picture (SVG)");
+}
+
+void add_spindle_sync(CLI::App& tests, Common& common) {
+  auto o = std::make_shared<ServoOptions>();
+  auto* command = add_command(
+      tests, common, "spindle-sync",
+      "A spindle follows another one: error of the angle at constant speeds and while the speed changes",
+      [o, &common] { return run_test(*o, common, &machine_tests::test_spindle_sync); });
+  add_machine(command, *o);
+  auto& test = o->spindle_sync;
+  command
+      ->add_option(
+          "--speed", test.speeds,
+          "Of the master, 1/min; may be repeated, in the order of the changes (default 1000, then 2000)")
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1.0, 5e5));
+  command->add_option("--on", test.on,
+                      "Block that couples the slave, by the PLC of the machine (default M80)");
+  command->add_option("--off", test.off, "Block that ends it (default M84)");
+  command->add_option("--start", test.start, "Block that starts the master (default M3)");
+  command->add_option("--stop", test.stop, "Block that stops it (default M5)");
+  command->add_option("--settling", test.settling, "s of machine time before the recording (default 2)")
+      ->check(CLI::Range(0.1, 60.0));
+  command->add_option("--record", test.record, "s of machine time that are recorded (default 5)")
+      ->check(CLI::Range(0.5, 100.0));
+  add_plot(command, *o);
 }
 
 }  // namespace
@@ -208,7 +242,7 @@ void add_servo_command(CLI::App& app, Common& common) {
     add_common(command, *o);
     command->add_option("--feed", o->feed, "mm/min or deg/min (default: that of the manual)")
         ->check(CLI::Range(0.1, 1e6));
-    command->add_option("--plot", o->plot, "Write the picture (SVG)");
+    add_plot(command, *o);
     const std::string name = row.name;
     if (name == "roundness")
       command->add_option("--radius", o->radius, "mm (default 100)")->check(CLI::Range(1.0, 1e4));
@@ -233,6 +267,7 @@ void add_servo_command(CLI::App& app, Common& common) {
     return std::pair{command, o};
   };
   for (const auto& row : rows) add(*tests, row);
+  add_spindle_sync(*tests, common);
   const auto [encoders, encoder_options] = add(
       *servo, {"encoders",
                "Compare motor and load encoder over one revolution, before the loop is closed over the load",

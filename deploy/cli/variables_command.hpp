@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Macro variables of a channel, read from the cluster that runs.
 #pragma once
 
 #include "commands.hpp"

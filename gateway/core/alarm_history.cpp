@@ -2,21 +2,17 @@
 #include "core/alarm_history.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "text/utf8.hpp"
 
 namespace trunnion::gateway {
 namespace {
 
 using bus::Json;
 using idl::service::Alarm;
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 std::string line_of(const PastAlarm& past) {
   auto json = bus::to_json(past.alarm);
@@ -165,10 +161,10 @@ Json past_alarm_document(const PastAlarm& past) {
 
 bool matches(const PastAlarm& past, const std::string& search) {
   if (search.empty()) return true;
-  const auto wanted = lower(search);
+  const auto wanted = text::lower_case(search);
   return std::to_string(past.alarm.number).find(wanted) != std::string::npos ||
-         lower(past.alarm.text).find(wanted) != std::string::npos ||
-         lower(past.alarm.source).find(wanted) != std::string::npos;
+         text::lower_case(past.alarm.text).find(wanted) != std::string::npos ||
+         text::lower_case(past.alarm.source).find(wanted) != std::string::npos;
 }
 
 }  // namespace trunnion::gateway

@@ -2,21 +2,16 @@
 #include "core/cluster_state.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "core/precondition.hpp"
 #include "machine/parameter_constants.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::gateway {
 namespace {
 
 using bus::Json;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 /// Class of a parameter by its number, as the catalogue's head lays them out.
 const char* group_of(std::uint32_t number) {
@@ -155,7 +150,7 @@ Json parameters_answer(const ClusterState& cluster, const ParameterQuery& query)
         !value.text.empty())
       axes.insert((number - name_number) / 1000);
   for (const auto& [number, state] : cluster.channels) channels.insert(number);
-  const auto wanted = lower(query.search);
+  const auto wanted = text::lower_case(query.search);
   auto wanted_name = wanted;
   std::replace(wanted_name.begin(), wanted_name.end(), ' ', '_');  // names are shown with spaces
 
@@ -171,8 +166,8 @@ Json parameters_answer(const ClusterState& cluster, const ParameterQuery& query)
         const auto number = definition.number(unit, i);
         if (!here && !values.contains(number)) continue;
         if (!wanted.empty() && machine::number_text(number).find(wanted) == std::string::npos &&
-            lower(definition.name).find(wanted_name) == std::string::npos &&
-            lower(definition.help).find(wanted) == std::string::npos)
+            text::lower_case(definition.name).find(wanted_name) == std::string::npos &&
+            text::lower_case(definition.help).find(wanted) == std::string::npos)
           continue;
         found.emplace(number, &definition);
       }

@@ -25,7 +25,7 @@ constexpr double decimals = 1e4;
 bool moves(const Command& command) {
   return command.kind == CommandKind::rapid || command.kind == CommandKind::line ||
          command.kind == CommandKind::arc || command.kind == CommandKind::skip ||
-         command.kind == CommandKind::tap;
+         command.kind == CommandKind::tap || command.kind == CommandKind::thread;
 }
 
 /// Collects the path as columns.

@@ -7,15 +7,10 @@
 #include <array>
 #include <cctype>
 
+#include "text/utf8.hpp"
+
 namespace trunnion::gateway {
 namespace {
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 bool is_address(const std::string& host) {
   std::array<unsigned char, sizeof(in6_addr)> address{};
@@ -37,12 +32,12 @@ std::string_view without_port(std::string_view host) {
 }  // namespace
 
 Site::Site(std::vector<std::string> names) : names_(std::move(names)) {
-  for (auto& name : names_) name = lower_case(name);
+  for (auto& name : names_) name = text::lower_case(name);
 }
 
 bool Site::is_named(std::string_view host) const {
   if (host.empty()) return true;
-  auto name = lower_case(without_port(host));
+  auto name = text::lower_case(std::string(without_port(host)));
   if (is_address(name)) return true;
   if (name.ends_with('.')) name.pop_back();
   return name == "localhost" || std::ranges::find(names_, name) != names_.end();

@@ -200,6 +200,19 @@ Json StateDocument::run_times() {
   return json;
 }
 
+Json StateDocument::spindles() const {
+  auto json = Json::array();
+  for (const auto& spindle : feedback_.spindles)
+    json.push_back(
+        {{"condition", bus::to_string(spindle.condition)},
+         {"homed", spindle.homed},
+         {"angle",
+          rounded(std::fmod(std::round((spindle.angle - std::floor(spindle.angle)) * 36000), 36000) / 100)},
+         {"gear", spindle.gear},
+         {"master", spindle.master}});
+  return json;
+}
+
 Json StateDocument::document(double now) {
   auto json = Json::object();
   if (has_cluster_)
@@ -212,12 +225,14 @@ Json StateDocument::document(double now) {
   for (const auto& [number, state] : channels_) channels[std::to_string(number)] = bus::to_json(state);
   json["run_times"] = run_times();
   json["axes"] = axes();
-  if (has_feedback_)
+  if (has_feedback_) {
     json["drive"] = {{"executed", feedback_.first + feedback_.count},
                      {"tick", feedback_.tick},
                      {"mode", bus::to_string(feedback_.mode)},
                      {"starved", feedback_.starved},
                      {"spindle_speed", rounded_row(feedback_.spindle_speed)}};
+    if (!feedback_.spindles.empty()) json["drive"]["spindles"] = spindles();
+  }
   if (!plc_.is_null()) json["plc"] = plc_;
   if (!measurement_.is_null()) json["measurement"] = measurement_;
   if (!trace_.empty() && !drive_axes_.empty()) {

@@ -62,6 +62,7 @@ class StateDocument {
   bus::Json alarms() const;
   bus::Json axes();
   bus::Json run_times();
+  bus::Json spindles() const;
 
   std::map<std::uint32_t, Known> services_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Raised> alarms_;

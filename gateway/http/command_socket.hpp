@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "operating_control.hpp"
+#include "operators/operating_control.hpp"
 
 namespace trunnion::gateway {
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Ports of TCP that are listened on, and the file descriptors that are kept for others.
 #pragma once
 
 #include <fcntl.h>

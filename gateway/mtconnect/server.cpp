@@ -18,6 +18,7 @@
 #include "core/connections.hpp"
 #include "http/listen.hpp"
 #include "http/transport.hpp"
+#include "text/instant.hpp"
 
 namespace trunnion::gateway::mtconnect {
 
@@ -37,15 +38,8 @@ constexpr rlim_t descriptors_for_http = 16;  // the last ones: a stop order come
 constexpr const char* boundary = "trunnion-mtconnect-part";
 
 std::string now() {
-  const auto time = std::chrono::system_clock::now().time_since_epoch();
-  const auto ms = std::chrono::duration_cast<milliseconds>(time).count();
-  const std::time_t seconds = ms / 1000;
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  char text[40];
-  const auto size = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &parts);
-  std::snprintf(text + size, sizeof text - size, ".%03dZ", static_cast<int>(ms % 1000));
-  return text;
+  const std::chrono::nanoseconds time = std::chrono::system_clock::now().time_since_epoch();
+  return text::instant(static_cast<std::uint64_t>(time.count()));
 }
 
 class Session : public std::enable_shared_from_this<Session> {

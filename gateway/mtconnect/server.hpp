@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "mailbox.hpp"
+#include "cluster_side/mailbox.hpp"
 #include "mtconnect/agent.hpp"
 
 namespace trunnion::gateway::mtconnect {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stops that are repeated, in a time of the test's own.
-#include "request_lanes.hpp"
+#include "cluster_side/request_lanes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -110,6 +110,7 @@ Json whole_document() {
   feedback.first = 100, feedback.count = 1, feedback.axis_count = 2,
   feedback.mode = idl::stream::DriveMode::HELD;
   feedback.commanded = {1, 2}, feedback.actual = {1, 2}, feedback.spindle_speed = {500};
+  feedback.spindles.resize(1);
   document.set_drive_axes({0, 5});
   document.apply(feedback);
   for (const char* what : {"parameters", "pending", "tools", "work_offsets", "programs"})

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The process of the compensation: the stage that corrects setpoints by the errors of the machine.
 #pragma once
 
 #include "core/compensation_core.hpp"

@@ -227,7 +227,10 @@ void DriveService::drain() {
     press_.release(plc_);
     core_.set_enables(plc_.axis_enable, plc_.emergency_stop || press_.held());
     core_.set_spindle_speed(plc_.spindle_speed);
-    core_.set_spindle_orientation(plc_.spindle_orient);
+    core_.set_surface_speeds(plc_.surface_speeds);
+    core_.set_spindle_gears(plc_.spindle_gear);
+    core_.set_spindle_orientation(plc_.spindle_orient, plc_.spindle_angle);
+    core_.set_spindle_couplings(plc_.spindle_couplings);
     core_.set_probe(plc_.probe_on);
     changed_ = true;
   }

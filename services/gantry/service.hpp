@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The process of the gantry: the stage that adds the setpoints of slave axes.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The process of the kinematics: the stage that makes machine axes of the path of the tool tip.
 #pragma once
 
 #include "core/kinematics_core.hpp"

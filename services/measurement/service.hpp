@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The process of the measurement: takes requests and the calls of programs, sends what Measurement asks for.
 #pragma once
 
 #include <future>

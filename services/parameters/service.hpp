@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The process that keeps parameters, tools and work offsets on disk, publishes and changes them.
 #pragma once
 
 #include "parameter_store/file_storage.hpp"

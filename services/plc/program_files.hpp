@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The PLC programs of the machine, from their files into the core; the file of the rounds.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The process of the PLC: brings PlcCore its inputs, publishes its outputs, keeps its memory.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The PLC on standby, compared with the running one in a swap.
 #pragma once
 
 #include "round_link.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The process that keeps the part programs on disk and publishes their list.
 #pragma once
 
 #include <optional>

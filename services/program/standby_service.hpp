@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program service on standby, compared with the running one in a swap.
 #pragma once
 
 #include <optional>

@@ -333,6 +333,31 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { t
     zh: { text: "测得的向量之差超过其公差", cause: "碰撞、工作台或摆头松动、标准球移动，或测量输入错误", remedy: "查明原因；重新测量、放弃结果，或在变化属实时确认结果" },
     de: { text: "Ein gemessener Vektor weicht stärker als seine Toleranz ab", cause: "Eine Kollision, ein loser Tisch oder Kopf, eine verschobene Kugel oder falsche Angaben zur Messung", remedy: "Die Ursache suchen; neu messen, das Ergebnis verwerfen, oder es bestätigen, wenn die Änderung stimmt" },
   },
+  182: {
+    en: { text: "A spindle does not turn because its acceleration cannot be computed", cause: "10a971 is 1, and the base speed 10a972 is 0 or above the power speed 10a973", remedy: "Enter both speeds from the data sheet of the motor, or 0 in 10a971; then reset" },
+    zh: { text: "主轴不转动，因为无法计算其加速度", cause: "10a971 为 1，而基速 10a972 为 0 或大于功率转速 10a973", remedy: "按电机数据表输入两个转速，或将 10a971 设为 0；然后复位" },
+    de: { text: "Eine Spindel dreht nicht, weil ihre Beschleunigung nicht berechnet werden kann", cause: "10a971 ist 1, und die Eckdrehzahl 10a972 ist 0 oder größer als die Leistungsdrehzahl 10a973", remedy: "Beide Drehzahlen aus dem Datenblatt des Motors eintragen, oder 0 in 10a971; dann zurücksetzen" },
+  },
+  183: {
+    en: { text: "A spindle cannot be synchronized before its index mark has passed", cause: "The PLC asked for the synchronization of two spindles, and one of them has not passed its index mark since the start; its angle is not known", remedy: "Turn the spindle at a low speed for a revolution, let the PLC withdraw the request, reset, then ask again" },
+    zh: { text: "主轴未经过零位标记，不能同步", cause: "PLC 请求两个主轴同步，但其中一个主轴自启动以来没有经过零位标记，角度未知", remedy: "以低速将该主轴转动一圈，由 PLC 撤销请求，复位，然后重新请求" },
+    de: { text: "Eine Spindel kann nicht synchronisiert werden, bevor ihre Nullmarke überfahren ist", cause: "Die SPS hat die Synchronisierung zweier Spindeln verlangt, und eine davon hat seit dem Start ihre Nullmarke nicht überfahren; ihr Winkel ist nicht bekannt", remedy: "Die Spindel mit kleiner Drehzahl eine Umdrehung drehen, die Anforderung von der SPS zurücknehmen lassen, zurücksetzen, dann neu anfordern" },
+  },
+  184: {
+    en: { text: "A spindle does not follow its master", cause: "The spindle is more than half a turn away from the angle of its master (overload, slip, too small a gain), or the synchronization is not possible: a path has one of the spindles (tapping), a master that does not exist or follows another spindle, or the drives went off before both were at rest", remedy: "Do what the text names; stop both spindles and open the chuck of one before they turn separately; then reset and ask again" },
+    zh: { text: "主轴没有跟随其主导主轴", cause: "主轴偏离主导主轴的角度超过半圈（过载、打滑或增益太小），或无法同步：轨迹正在控制其中一个主轴（攻丝），主导主轴不存在，或它本身跟随另一主轴，或驱动器在两者静止之前已断电", remedy: "按文本处理；在两个主轴分别转动之前，停止两者并松开一个卡盘；然后复位并重新请求" },
+    de: { text: "Eine Spindel folgt ihrer Leitspindel nicht", cause: "Die Spindel ist mehr als eine halbe Umdrehung vom Winkel ihrer Leitspindel entfernt (Überlast, Schlupf, zu kleine Verstärkung), oder die Synchronisierung ist nicht möglich: eine Bahn führt eine der Spindeln (Gewindebohren), die Leitspindel gibt es nicht, oder sie folgt selbst einer anderen, oder die Antriebe wurden abgeschaltet, bevor beide stillstanden", remedy: "Tun, was der Text nennt; beide Spindeln anhalten und ein Futter öffnen, bevor sie getrennt drehen; dann zurücksetzen und neu anfordern" },
+  },
+  185: {
+    en: { text: "A spindle has left the angle at which it is held", cause: "Something turns the spindle with more torque than its drive can hold, or the window 10a946 is too small", remedy: "Check that tool, tool changer and workpiece are free and what turns the spindle; reset, then orient it again" },
+    zh: { text: "主轴离开了定向保持的角度", cause: "外力使主轴转动，其扭矩大于驱动器的保持扭矩，或窗口 10a946 过小", remedy: "检查刀具、换刀装置和工件是否自由，以及是什么使主轴转动；复位，然后重新定向" },
+    de: { text: "Eine Spindel hat den Winkel verlassen, in dem sie gehalten wird", cause: "Etwas dreht die Spindel mit mehr Moment, als ihr Antrieb halten kann, oder das Fenster 10a946 ist zu klein", remedy: "Prüfen, ob Werkzeug, Werkzeugwechsler und Werkstück frei sind und was die Spindel dreht; zurücksetzen, dann erneut orientieren" },
+  },
+  186: {
+    en: { text: "A thread was broken off because of the speed of the spindle", cause: "The spindle does not turn, or turned at less than 50 % or more than 150 % of S, faster than an axis can follow, or the other way round while a thread was cut", remedy: "Retract the tool; check spindle, override and S; cut the thread again from its start point" },
+    zh: { text: "螺纹加工因主轴转速而中断", cause: "主轴没有旋转，或在切削螺纹时转速低于 S 的 50%、高于 150%、快于轴所能跟随的速度，或方向相反", remedy: "退出刀具；检查主轴、倍率和 S；从起点重新切削螺纹" },
+    de: { text: "Ein Gewinde wurde wegen der Drehzahl der Spindel abgebrochen", cause: "Die Spindel dreht sich nicht, oder sie drehte sich beim Gewindeschneiden mit weniger als 50 % oder mehr als 150 % von S, schneller, als eine Achse folgen kann, oder in der anderen Richtung", remedy: "Das Werkzeug freifahren; Spindel, Override und S prüfen; das Gewinde vom Startpunkt neu schneiden" },
+  },
   483: {
     en: { text: "The partner of a gantry axis has an alarm of its drive", cause: "The drive of the other side of the gantry has stopped, and this one with it (10a943)", remedy: "Remove the cause at the axis of alarm 114, then reset" },
     zh: { text: "龙门轴的另一侧驱动器有报警", cause: "龙门另一侧的驱动器已停止，本侧随之停止（10a943）", remedy: "在报警 114 所指的轴上排除原因，然后复位" },

@@ -22,6 +22,20 @@ export type Reaction = "SHOW" | "FEED_HOLD" | "AXIS_STOP" | "EMERGENCY_STOP";
 
 export type DriveMode = "FOLLOWING" | "BRAKING" | "HELD" | "RETURNING" | "OFF" | "HOMING";
 
+export type SpindleCondition = "SPINDLE_STOPPED" | "SPINDLE_ACCELERATING" | "SPINDLE_AT_SPEED" | "SPINDLE_POSITIONING" | "SPINDLE_ORIENTED" | "SPINDLE_FOLLOWS_PATH" | "SPINDLE_SYNCHRONIZING" | "SPINDLE_SYNCHRONIZED";
+
+export interface SpindleShown {
+  condition: SpindleCondition;
+  /** Its index mark was passed since the start: the angle counts from it */
+  homed: boolean;
+  /** deg, clockwise, 0..360 */
+  angle: number;
+  /** From 1; 0 = the spindle has no gears */
+  gear: number;
+  /** Number of the spindle it follows; -1 = none */
+  master: number;
+}
+
 /** Lengths in mm, angles in degrees, feeds in mm/min, spindle speeds in 1/min, as in idl/channel.idl. */
 export interface ChannelState {
   channel: number;
@@ -43,7 +57,7 @@ export interface ChannelState {
   feed: number;
   /** F in mm/min, of the block being executed */
   programmed_feed: number;
-  /** S in 1/min */
+  /** S in 1/min, with G96 in m/min */
   spindle_programmed: number;
   /** 0..1.5 */
   feed_override: number;
@@ -280,6 +294,8 @@ export interface DriveState {
   starved: number;
   /** 1/min */
   spindle_speed: number[];
+  /** In the order of their numbers */
+  spindles?: SpindleShown[];
 }
 
 export interface ChannelControl {
@@ -297,6 +313,8 @@ export interface ChannelControl {
   spindle_override: number;
   /** of the inhibits, for the operator; empty = the programs give none */
   reason: string;
+  /** spindle and axis of a rigid tap stop together; they continue when it falls */
+  tap_stop: boolean;
 }
 
 export interface PlcState {

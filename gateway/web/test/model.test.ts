@@ -62,7 +62,7 @@ test("cycle start: not without a program, not while running, not under an emerge
   expect(canStart(plc(true), channel)).toBe(false);
   const inhibited = (start_inhibit: boolean, manual_inhibit: boolean, reason: string) => {
     const state = plc(false);
-    const control = { start_inhibit, manual_inhibit, sets_overrides: false, feed_override: 1, rapid_override: 1, spindle_override: 1, reason };
+    const control = { start_inhibit, manual_inhibit, sets_overrides: false, feed_override: 1, rapid_override: 1, spindle_override: 1, reason, tap_stop: false };
     return { ...state, plc: { ...state.plc, channels: [control] } };
   };
   expect(canStart(inhibited(true, false, "the door is open"), channel)).toBe(false);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "text/utf8.hpp"
 
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 
@@ -61,6 +62,11 @@ std::string shortened(std::string text, std::size_t most) {
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u) --end;
   while (end > 0 && text[end - 1] == ' ') --end;
   text.replace(end, std::string::npos, mark);
+  return text;
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
 

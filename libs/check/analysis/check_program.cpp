@@ -69,9 +69,17 @@ bool check(ProgramReader& reader, const language::Environment& environment, lang
   const auto lines = std::make_unique<JsonLines>(out, environment.axes());
   MotionTracker tracker(environment, reader.interpreter(), start);
   Summary summary(environment.axes());
-  reader.on_command = [&](const language::Command& command, const language::Command&) {
+  language::Command turned;  // with G96 the feed per revolution is that of the move
+  reader.on_command = [&](const language::Command& command, const language::Command& move) {
     if (!options.json_lines) summary.add(command);
-    const auto motion = tracker.follow(command);
+    const bool turns = command.modal.spindle_mode == language::SpindleMode::surface &&
+                       command.modal.feed_mode == language::FeedMode::per_revolution &&
+                       move.modal.feed_mode == language::FeedMode::per_minute;
+    if (turns) {
+      turned = command;
+      turned.modal.feed = move.modal.feed, turned.modal.feed_mode = move.modal.feed_mode;
+    }
+    const auto motion = tracker.follow(turns ? turned : command);
     if (!motion) return;
     if (options.json_lines)
       lines->motion(*motion);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "language/arc_geometry.hpp"
+#include "program_execution/thread_path.hpp"
 
 namespace trunnion::analysis {
 namespace {
@@ -59,8 +60,8 @@ std::optional<double> feed_of(const Command& command, double length) {
   const language::ModalState& modal = command.modal;
   if (command.kind == CommandKind::rapid) return std::nullopt;
   if (command.kind == CommandKind::tap) {
-    return modal.spindle_speed > 0 ? std::optional(std::abs(command.value) * modal.spindle_speed)
-                                   : std::nullopt;
+    const double speed = stroke_speed(command);
+    return speed > 0 ? std::optional(std::abs(command.value) * speed) : std::nullopt;
   }
   switch (modal.feed_mode) {
     case language::FeedMode::inverse_time:
@@ -96,8 +97,10 @@ std::optional<Motion> MotionTracker::follow(const Command& command) {
     case CommandKind::arc:
     case CommandKind::skip:
     case CommandKind::tap:
+    case CommandKind::thread:
       break;
     case CommandKind::transformation:
+    case CommandKind::home:
       target_ = command.target;
       machine_ = to_machine(command, command.target);
       return std::nullopt;
@@ -127,7 +130,9 @@ std::optional<Motion> MotionTracker::follow(const Command& command) {
       command.modal.transformation == language::Transformation::none &&
       (command.kind == CommandKind::arc || linear_length(target_, command.target) > no_distance);
   motion.combined = both ? std::hypot(motion.length, rotary_length(target_, command.target)) : motion.length;
-  motion.feed = feed_of(command, motion.length);
+  motion.feed = command.kind == CommandKind::thread
+                    ? program_execution::thread_line(command, target_).modal.feed
+                    : feed_of(command, motion.length);
   const bool combines = environment_.combined_feed() && command.kind != CommandKind::tap &&
                         command.modal.feed_mode != language::FeedMode::inverse_time;
   motion.counted = combines ? motion.combined : motion.length;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Notes which topics a process opens, for the tests of its rights.
 #pragma once
 
 #include <string>

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "contracts/topics.hpp"
+#include "text/instant.hpp"
 #include "trunnion/version.hpp"
 
 namespace trunnion::cluster {
@@ -17,15 +18,6 @@ namespace {
 std::string user_name() {
   const passwd* user = getpwuid(geteuid());
   return (user != nullptr ? std::string(user->pw_name) : std::to_string(geteuid())).substr(0, 31);
-}
-
-std::string time_text(std::uint64_t seconds) {
-  const auto time = static_cast<std::time_t>(seconds);
-  std::tm parts{};
-  gmtime_r(&time, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
 }
 
 }  // namespace
@@ -51,7 +43,7 @@ Identity make_identity(const std::string& machine, std::uint32_t instance, bool 
 std::string describe(const Identity& identity, std::uint32_t domain) {
   return "launcher " + std::to_string(identity.pid) + " of user " + identity.user + " on host " +
          identity.host + " (machine " + identity.machine + ", domain " + std::to_string(domain) + ", since " +
-         time_text(identity.since) + ")";
+         text::whole_second(static_cast<std::time_t>(identity.since)) + ")";
 }
 
 std::string write_identity(const Identity& identity, std::uint32_t domain) {

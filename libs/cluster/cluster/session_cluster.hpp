@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The cluster of a command that moves axes: found, or started for it.
 #pragma once
 
 #include <cstdint>

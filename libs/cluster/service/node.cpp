@@ -15,6 +15,7 @@
 #include "bus/contract.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/services.hpp"
+#include "text/instant.hpp"
 #include "text/utf8.hpp"
 #include "trunnion/version.hpp"
 
@@ -48,14 +49,7 @@ double monotonic_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-std::string time_of_day() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
+std::string time_of_day() { return text::whole_second(std::time(nullptr)); }
 
 bool use_real_time_scheduling() {
   real_time_wanted = true;

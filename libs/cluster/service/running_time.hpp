@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A clock that stands still while the process does.
 #pragma once
 
 #include <algorithm>

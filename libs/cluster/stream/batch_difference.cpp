@@ -88,6 +88,7 @@ void compare_shape(Comparison& comparison, const Batch& a, const Batch& b) {
 bool same_values(const idl::stream::AxisBatch& a, const idl::stream::AxisBatch& b) {
   return a.count == b.count && a.revision == b.revision && a.ends == b.ends && a.axes == b.axes &&
          a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.skip_move == b.skip_move &&
+         a.follows_spindle == b.follows_spindle && a.turning_radius == b.turning_radius &&
          a.setpoints == b.setpoints && a.snapshot == b.snapshot && a.states == b.states;
 }
 
@@ -95,6 +96,7 @@ bool same_values(const idl::stream::PathBatch& a, const idl::stream::PathBatch& 
   return a.count == b.count && a.revision == b.revision && a.ends == b.ends &&
          a.transformation == b.transformation && a.tool_length == b.tool_length &&
          a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.skip_move == b.skip_move &&
+         a.follows_spindle == b.follows_spindle && a.turning_radius == b.turning_radius &&
          a.setpoints == b.setpoints && a.snapshot == b.snapshot && a.states == b.states;
 }
 
@@ -105,6 +107,9 @@ std::optional<BatchDifference> difference(const idl::stream::AxisBatch& a, const
   comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
   comparison.list("spindle", a.first, a.spindle, b.spindle);
   comparison.value("skip move", a.first, std::uint64_t{a.skip_move}, std::uint64_t{b.skip_move});
+  comparison.value("follows spindle", a.first, std::uint64_t{a.follows_spindle},
+                   std::uint64_t{b.follows_spindle});
+  comparison.list("turning radius", a.first, a.turning_radius, b.turning_radius);
   comparison.rows(a.setpoints, b.setpoints, a.axes.size());
   comparison.snapshot(a.snapshot, b.snapshot);
   comparison.states(a.states, b.states);
@@ -120,6 +125,9 @@ std::optional<BatchDifference> difference(const idl::stream::PathBatch& a, const
   comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
   comparison.list("spindle", a.first, a.spindle, b.spindle);
   comparison.value("skip move", a.first, std::uint64_t{a.skip_move}, std::uint64_t{b.skip_move});
+  comparison.value("follows spindle", a.first, std::uint64_t{a.follows_spindle},
+                   std::uint64_t{b.follows_spindle});
+  comparison.list("turning radius", a.first, a.turning_radius, b.turning_radius);
   comparison.rows(a.setpoints, b.setpoints, 9);
   comparison.snapshot(a.snapshot, b.snapshot);
   comparison.states(a.states, b.states);

@@ -343,6 +343,8 @@ class StageService : public service::Service {
       out_.spindle_axis = in->spindle_axis;
       out_.spindle = in->spindle;
       out_.skip_move = in->skip_move;
+      out_.follows_spindle = in->follows_spindle;
+      out_.turning_radius = in->turning_radius;
       out_.snapshot = in->snapshot;
       out_.states = in->states;
       auto& own = state_of(out_.states, stage_);

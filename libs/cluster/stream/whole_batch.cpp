@@ -62,9 +62,14 @@ void check_batch(BatchCheck& check, const Batch& batch, std::size_t columns) {
   check.cycles(batch.first, batch.count);
   check.rows("setpoints", batch.setpoints, batch.count, columns);
   check.rows("lines", batch.lines, batch.count, 1);
-  check.rows_or_none("spindle", batch.spindle, batch.count, 1);
+  if (batch.follows_spindle)
+    check.rows("spindle", batch.spindle, batch.count, 1);
+  else
+    check.rows_or_none("spindle", batch.spindle, batch.count, 1);
   check.reachable("setpoints", batch.setpoints);
   check.reachable("spindle", batch.spindle);
+  check.rows_or_none("turning_radius", batch.turning_radius, batch.count, 1);
+  check.reachable("turning_radius", batch.turning_radius);
   check.within("states", batch.states.size(), 0, most_states);
 }
 

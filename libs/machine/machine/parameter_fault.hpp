@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// How checks of parameters that belong together report what does not fit.
 #pragma once
 
 #include <cstdint>

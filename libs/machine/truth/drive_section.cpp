@@ -158,26 +158,57 @@ class DriveParser {
   double small_ = 1e-3;
 };
 
+void read_torque_curve(const machine::YamlReader& reader, const YAML::Node& node, SpindleTruth& spindle) {
+  if (!node.IsSequence() || node.size() == 0 || node.size() > 32)
+    reader.fail(
+        node, "expected 1 to 32 points [1/min, Nm] of the torque curve, for example [[0, 100], [6000, 25]]");
+  for (const auto& point : node) {
+    if (!point.IsSequence() || point.size() != 2)
+      reader.fail(point, "expected a point [1/min, Nm] of the torque curve");
+    const SpindleTruth::Point p{reader.number(point[0], {0, 1e6}), reader.number(point[1], {1e-6, 1e6})};
+    if (!spindle.torque.empty() && p.speed <= spindle.torque.back().speed)
+      reader.fail(point, "the speeds of the torque curve must rise");
+    spindle.torque.push_back(p);
+  }
+}
+
+void read_ripple(const machine::YamlReader& reader, const YAML::Node& node, SpindleTruth& spindle) {
+  reader.each(node, "share, hz", [&](const std::string& key, const YAML::Node& v) {
+    if (key == "share") return spindle.ripple = reader.number(v, {0, 0.5}), true;
+    return key == "hz" && (spindle.ripple_frequency = reader.number(v, {1e-3, 500}), true);
+  });
+  for (const char* const key : {"share", "hz"})
+    if (!node[key]) reader.fail(node, std::string("'") + key + "' is missing");
+}
+
+void read_gears(const machine::YamlReader& reader, const YAML::Node& node, SpindleTruth& spindle) {
+  if (!node.IsSequence() || node.size() == 0 || node.size() > 5)
+    reader.fail(node, "expected 1 to 5 gears, for example [{ratio: 4}, {ratio: 1}]");
+  for (const auto& gear : node) {
+    reader.each(gear, "ratio", [&](const std::string& key, const YAML::Node& v) {
+      return key == "ratio" && (spindle.gears.push_back(reader.number(v, {1e-3, 1e3})), true);
+    });
+    if (!gear["ratio"]) reader.fail(gear, "'ratio' is missing");
+  }
+}
+
 SpindleTruth read_spindle_drive(const machine::YamlReader& reader, const YAML::Node& node) {
   SpindleTruth spindle;
-  reader.each(node, "inertia_kg_m2, torque_Nm", [&](const std::string& key, const YAML::Node& v) {
-    if (key == "inertia_kg_m2") return spindle.inertia = reader.number(v, {1e-6, 1e4}), true;
-    if (key != "torque_Nm") return false;
-    if (!v.IsSequence() || v.size() == 0 || v.size() > 32)
-      reader.fail(
-          v, "expected 1 to 32 points [1/min, Nm] of the torque curve, for example [[0, 100], [6000, 25]]");
-    for (const auto& point : v) {
-      if (!point.IsSequence() || point.size() != 2)
-        reader.fail(point, "expected a point [1/min, Nm] of the torque curve");
-      const SpindleTruth::Point p{reader.number(point[0], {0, 1e6}), reader.number(point[1], {1e-6, 1e6})};
-      if (!spindle.torque.empty() && p.speed <= spindle.torque.back().speed)
-        reader.fail(point, "the speeds of the torque curve must rise");
-      spindle.torque.push_back(p);
-    }
-    return true;
-  });
+  reader.each(node, "inertia_kg_m2, torque_Nm, speed_error, disturbance, load_torque_Nm, gears, mark_deg",
+              [&](const std::string& key, const YAML::Node& v) {
+                if (key == "inertia_kg_m2") return spindle.inertia = reader.number(v, {1e-6, 1e4}), true;
+                if (key == "torque_Nm") return read_torque_curve(reader, v, spindle), true;
+                if (key == "speed_error") return spindle.speed_error = reader.number(v, {-0.5, 0.5}), true;
+                if (key == "disturbance") return read_ripple(reader, v, spindle), true;
+                if (key == "load_torque_Nm") return spindle.load_torque = reader.number(v, {0, 1e6}), true;
+                if (key == "gears") return read_gears(reader, v, spindle), true;
+                return key == "mark_deg" && (spindle.mark = reader.number(v, {0, 360}), true);
+              });
+  bool motor = false;
+  for (const char* const key : {"inertia_kg_m2", "torque_Nm", "load_torque_Nm", "gears"})
+    motor = motor || node[key];
   for (const char* const key : {"inertia_kg_m2", "torque_Nm"})
-    if (!node[key]) reader.fail(node, std::string("'") + key + "' is missing");
+    if (motor && !node[key]) reader.fail(node, std::string("'") + key + "' is missing");
   return spindle;
 }
 
@@ -197,7 +228,11 @@ auto read_named(const machine::YamlReader& reader, const YAML::Node& section,
 
 }  // namespace
 
-double SpindleTruth::torque_at(double speed) const {
+double SpindleTruth::torque_at(double speed, std::size_t gear) const {
+  if (gear >= 1 && gear <= gears.size()) {
+    const double ratio = gears[gear - 1];
+    return ratio * torque_at(ratio * speed);
+  }
   const double at = std::abs(speed);
   if (at <= torque.front().speed) return torque.front().torque;
   for (std::size_t i = 1; i < torque.size(); ++i) {

@@ -2,6 +2,7 @@
 // The mechanics and the encoders of one servo axis as they are: the section `drives` of truth.yaml.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -70,17 +71,25 @@ struct DriveFaultTruth {
   double at = 0;  ///< mm or deg
 };
 
-/// What a spindle's motor can do. Up to its speed 0 the torque is the first, beyond the last speed the last
-/// one of the curve; in between it is linear.
+/// How a spindle differs from an ideal one. The torque of its motor: up to its speed 0 the first one, beyond
+/// the last speed the last one of the curve; in between it is linear.
 struct SpindleTruth {
   struct Point {
     double speed = 0;   ///< 1/min
     double torque = 0;  ///< Nm
   };
-  double inertia = 0;         ///< kg m2, all that turns, at the spindle
-  std::vector<Point> torque;  ///< by speed, rising
-  /// Nm at `speed` (1/min, of either sign).
-  double torque_at(double speed) const;
+  double inertia = 0;            ///< kg m2, all that turns, at the spindle
+  std::vector<Point> torque{};   ///< by speed, rising; empty: a spindle that is always strong enough
+  double speed_error = 0;        ///< share of the commanded speed by which the true one is greater
+  double ripple = 0;             ///< amplitude of a sinusoidal disturbance of the speed, share of it
+  double ripple_frequency = 1;   ///< Hz
+  double load_torque = 0;        ///< Nm, against the rotation
+  std::vector<double> gears{};   ///< revolutions of the motor for one of the spindle, by gear from 1
+  std::optional<double> mark{};  ///< deg, clockwise from where it starts; nothing: it starts there, homed
+  bool has_motor() const { return !torque.empty(); }
+  /// Nm at the spindle at its `speed` (1/min, of either sign) in a gear (from 1; one that `gears` does not
+  /// have turns it once for a revolution of the motor). Only with a motor.
+  double torque_at(double speed, std::size_t gear = 0) const;
 };
 
 struct DriveTruth {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/cycle_arguments.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "calibration/circle_corrections.hpp"
@@ -59,17 +60,8 @@ constexpr Digit display_digits[]{
     {0, "plane", {"active", "G17", "G18", "G19"}}, {1, "", {"off", "on"}},  // the tolerance of the vectors
 };
 
-std::string shown(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
-std::string short_number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
+std::string shown(double value) { return fmt::format("{:.17g}", value); }
+std::string short_number(double value) { return fmt::format("{:.10g}", value); }
 
 [[noreturn]] void fail(unsigned argument, const std::string& why) {
   std::string text = "CYCLE9960, argument " + std::to_string(argument);

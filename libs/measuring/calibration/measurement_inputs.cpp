@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/measurement_inputs.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "geometry/chain.hpp"
@@ -12,11 +13,7 @@
 namespace trunnion::calibration {
 namespace {
 
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
+std::string number(double value) { return fmt::format("{:.10g}", value); }
 
 std::vector<std::size_t> rotary_axes(const ChainParameters& chain) {
   std::vector<std::size_t> axes;

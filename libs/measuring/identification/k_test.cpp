@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "identification/r_test.hpp"
+#include "identification/r_test_evaluation.hpp"
 
 namespace trunnion::identification {
 

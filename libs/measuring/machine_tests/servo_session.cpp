@@ -19,8 +19,8 @@ using idl::servo::TestPhase;
 namespace {
 
 constexpr const char* servo_program = "servo-test.tmp.nc";
-constexpr double servo_answer_time = 30, longest_motion = 600;  // s of wall time
-constexpr int most_runs = 4;                                    // of a test whose samples are lost
+constexpr double servo_answer_time = 30, longest_motion = 600, longest_recovery = 60;  // s of wall time
+constexpr int most_runs = 4;  // of a test whose samples are lost
 
 void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
 
@@ -106,18 +106,22 @@ void ServoSession::start_program(const std::string& program) {
   channel_->select_temporary(servo_program, program);
 }
 
-// Reads samples meanwhile, so that none is lost.
-void ServoSession::await_end(SessionResult* result) {
+void ServoSession::await_end(const std::function<void()>& meanwhile) {
   const auto end = channel_->run(
       [&] {
         check();
-        if (result != nullptr) take_samples(*result);
+        meanwhile();
       },
       longest_motion);
   if (end == cluster::MachineSession::End::stopped)
     throw std::runtime_error("the motion of the test was held or interrupted");
   if (end == cluster::MachineSession::End::overdue)
     throw std::runtime_error("the motion of the test did not end");
+}
+
+// Reads samples meanwhile, so that none is lost.
+void ServoSession::await_end(SessionResult* result) {
+  await_end([&] { take_samples(*result); });
 }
 
 void ServoSession::begin_test(const idl::servo::TestRequest& request) {
@@ -169,7 +173,24 @@ void ServoSession::end_test(SessionResult* result) {
 
 void ServoSession::move(const std::string& program) {
   start_program(program);
-  await_end(nullptr);
+  await_end([] {});
+}
+
+void ServoSession::watch(const std::string& program, const std::function<void()>& meanwhile) {
+  start_program(program);
+  await_end(meanwhile);
+}
+
+void ServoSession::recover(const std::string& program) {
+  client_->channel(channel_->number(), CommandKind::RESET);
+  const double until = service::monotonic_seconds() + longest_recovery;
+  while (channel_->state().state != idl::channel::RunState::IDLE) {
+    if (service::monotonic_seconds() > until) throw std::runtime_error("the channel does not come to rest");
+    pause();
+  }
+  channel_->select_temporary(servo_program, program);
+  if (channel_->run([] {}, longest_recovery) != cluster::MachineSession::End::idle)
+    throw std::runtime_error("its program does not end");
 }
 
 // The writer of the drive keeps the newest samples only, and a busy computer may take them too late.

@@ -56,6 +56,14 @@ class ServoSession {
   SessionResult run(idl::servo::TestRequest request, const std::string& program);
   /// Runs a program alone.
   void move(const std::string& program);
+  /// The same; calls `meanwhile` at least every 10 ms.
+  void watch(const std::string& program, const std::function<void()>& meanwhile);
+  /// When an exception has ended the test: resets the channel and executes `program`, also when the operator
+  /// wants the end. Throws std::runtime_error when the channel does not execute it.
+  void recover(const std::string& program);
+  /// The channel executes nothing.
+  bool idle() { return channel_->state().state == idl::channel::RunState::IDLE; }
+  cluster::Client& client() { return *client_; }
   /// Writes values in one activation, with `who` in the journal, and activates them by a reset.
   void write(const std::vector<servo_analysis::ServoSettings::Value>& values, const std::string& who);
 
@@ -64,6 +72,7 @@ class ServoSession {
   void take_axes();
   void start_program(const std::string& program);
   void await_end(SessionResult* result);
+  void await_end(const std::function<void()>& meanwhile);
   void begin_test(const idl::servo::TestRequest& request);
   bool take_samples(SessionResult& result);
   void end_test(SessionResult* result);

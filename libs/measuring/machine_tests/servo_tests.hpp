@@ -8,6 +8,7 @@
 
 #include "bus/json.hpp"
 #include "machine_tests/servo_session.hpp"
+#include "machine_tests/spindle_sync_samples.hpp"
 #include "servo_analysis/test_findings.hpp"
 #include "servo_analysis/test_picture.hpp"
 
@@ -27,6 +28,7 @@ struct TestOptions {
   double start = 0, end = 360;            ///< rtcp, deg
   std::uint32_t tool = 1;                 ///< rtcp, H
   std::string loop = "speed";
+  SpindleSyncOptions spindle_sync;
 };
 
 /// Each throws std::runtime_error when the test cannot be done or is ended.
@@ -41,5 +43,9 @@ TestReport test_friction(ServoSession& session, const TestOptions& options);
 /// Signs and pulses of motor and load encoder over one revolution in semi-closed loop; proposes 10a931 and
 /// 10a932.
 TestReport test_encoders(ServoSession& session, const TestOptions& options);
+
+/// Two spindles that the PLC couples by M functions, at each speed and while the master changes from one to
+/// the next. At the end, also after an exception, they are at rest and not coupled.
+TestReport test_spindle_sync(ServoSession& session, const TestOptions& options);
 
 }  // namespace trunnion::machine_tests

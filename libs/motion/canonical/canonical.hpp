@@ -41,7 +41,7 @@ struct Tilt {
 
 /// The modal state a command was made in: what the HMI shows, and what a restart at this command restores.
 struct ModalState {
-  std::uint8_t motion = 0;  ///< 0, 1, 2, 3 (G0..G3) or 62 (G6.2)
+  std::uint8_t motion = 0;  ///< 0, 1, 2, 3 (G0..G3), 33, 34 (G33 and G32, G34) or 62 (G6.2)
   Plane plane = Plane::xy;
   bool absolute = true;  ///< G90, else G91
   bool metric = true;    ///< G21, else G20
@@ -67,7 +67,7 @@ struct ModalState {
   SpindleMode spindle_mode = SpindleMode::speed;
   SpindleDirection spindle_direction = SpindleDirection::stopped;
   double feed = 0;            ///< F as it applies: mm/min (deg/min for purely rotary moves), 1/min, mm/rev
-  double spindle_speed = 0;   ///< S, 1/min; with G96 the one before it
+  double spindle_speed = 0;   ///< S, 1/min; with G96 the one before it, behind G96 without S the one it had
   double surface_speed = 0;   ///< S of G96, m/min
   double spindle_limit = 0;   ///< S of G92, 1/min; 0 = none
   double path_tolerance = 0;  ///< P of G64, mm; 0 = the channel's own
@@ -119,6 +119,17 @@ enum class CommandKind : std::uint8_t {
   table,  ///< a table was changed by the program (G10): `table`, entry `number`, and `value` or target
   message,  ///< number; the text is the comment of its line
   cycle,    ///< number as written to #3100; nothing further is read before Interpreter::answer()
+  home,     ///< search the references of the axes of `number` (bit a for Axis a) (G28.2), which end somewhere
+            ///< near target; value = speed of the search per minute as programmed: mm, or inches when not
+            ///< modal.metric, of linear axes, degrees of the others; 0 = the axis' own. No further block is
+            ///< read before Interpreter::set_position()
+  thread,   ///< straight move of linear axes that follows the turning spindle (G33, G34): value = lead at its
+            ///< start in mm per revolution of the axis that goes farthest, the first of equal ones. Threads
+            ///< with no other command and no exact stop between them are one thread; number = 1: begins
+            ///< another one
+  read,     ///< a value of a spindle (canonical/spindle_value.hpp) behind dwell_seconds at rest, number as
+            ///< read_number(); nothing further is read before Interpreter::give_value()
+  spindle_order,  ///< what the PLC is to do with a spindle: number as order_master and others, value
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.
@@ -151,12 +162,23 @@ struct Command {
   AxisValues target{};         ///< end of a move, in the frame modal.transformation says
   Arc arc{};
   double dwell_seconds = 0;
-  std::uint32_t number = 0;   ///< M, T or message number; of end: 2, 30, or 0 for the end of the text
-  double value = 0;           ///< S in 1/min, or in m/min when modal.spindle_mode says surface
+  std::uint32_t number = 0;  ///< M, T or message number; of end: 2, 30, or 0 for the end of the text
+  double value = 0;          ///< S in 1/min, or in m/min when modal.spindle_mode says surface; with has_value
+                             ///< the angle of M19, deg in [0, 360)
+  double lead_change = 0;    ///< of kind thread: mm per revolution in each revolution
+  double start_angle = 0;    ///< of kind thread: degrees behind the index mark, in the spindle's direction
+  double spindle_speed = 0;  ///< of kind tap: 1/min; 0 = modal.spindle_speed
   Table table = Table::none;  ///< of kind table
-  bool chord = false;  ///< a piece of a smooth curve (G6.2) or of a move with tool vectors (G43.5) that
-                       ///< continues behind it: its end is no corner
+  bool chord = false;      ///< a piece of a smooth curve (G6.2) or of a move with tool vectors (G43.5) that
+                           ///< continues behind it: its end is no corner
+  bool has_value = false;  ///< of kind auxiliary: the block gives `value`
+  bool out = false;        ///< of kind tap: out of a hole that the tap was left in
   ModalState modal{};
 };
+
+/// 1/min at which the spindle makes a stroke of kind tap.
+inline double stroke_speed(const Command& stroke) {
+  return stroke.spindle_speed > 0 ? stroke.spindle_speed : stroke.modal.spindle_speed;
+}
 
 }  // namespace trunnion::canonical

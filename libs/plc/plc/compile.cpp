@@ -10,6 +10,7 @@
 #include "plc/library/functions.hpp"
 #include "plc/machine/verify.hpp"
 #include "plc/plcopen/import.hpp"
+#include "plc/semantics/namespaces.hpp"
 #include "plc/syntax/parser.hpp"
 
 namespace trunnion::st {
@@ -37,7 +38,8 @@ void add_symbol(const Variable& variable, const std::string& prefix, const std::
   const auto offset = static_cast<std::uint32_t>(place.offset);
   const bool absolute = place.base == Place::Base::absolute;
   compilation.symbols.push_back({prefix + variable.text, variable.type, absolute ? offset : base + offset,
-                                 place.bit, absolute && offset < image_cells, pou + variable.text});
+                                 place.bit, absolute && offset < image_cells, pou + variable.text,
+                                 prefix.size()});
 }
 
 /// Finds the element of a diagram that is at a place.
@@ -160,6 +162,8 @@ Compilation compile(const std::vector<Source>& sources, const RegisterNames& reg
     else
       parse(source.text, file, kept->tree, kept->diagnostics);
   }
+  if (kept->diagnostics.errors() == 0)
+    resolve_names(kept->tree, kept->registers, result.files, kept->diagnostics);
   auto& unit = kept->unit.emplace(kept->tree, kept->diagnostics, kept->registers, library_files);
   for (std::size_t i = 0; i < sources.size(); ++i)
     if (is_codesys_export(sources[i].name))

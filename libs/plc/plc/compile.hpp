@@ -26,7 +26,8 @@ struct Symbol {
   std::uint32_t address = 0;
   int bit = -1;  ///< of a register
   bool is_register = false;
-  std::string declared;  ///< its name in the cross reference: POU.variable
+  std::string declared;     ///< its name in the cross reference: POU.variable
+  std::size_t name_at = 0;  ///< in the path, behind the program; of a global variable 0
 };
 
 struct FunctionInterface {

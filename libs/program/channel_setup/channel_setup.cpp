@@ -20,6 +20,7 @@ constexpr double turn_worth_a_move = 1e-6;  // degrees
 constexpr std::uint32_t most_vector_pieces = 1024;
 constexpr double straight_on = 180;  // degrees: interior angle and turn of a corner together
 constexpr int first_plane = 17;      // G17
+constexpr std::uint32_t spindle_gears = 5;
 
 // An axis that the chain turns and that nothing moves would stay at zero without a word.
 void check_chain_axes(const geometry::Chain& chain, const machine::ChannelAxes& axes, std::uint16_t channel) {
@@ -104,6 +105,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
       numbered_references_[k][index] = p.get(parameter::numbered_reference, a, k);
   }
   find_tapping_spindles(p);
+  find_external_parameters(p);
   solver_.emplace(*chain_);
   rotary_travel_ = machine::rotary_travels(p, channel_);
   avoid_poles_ = p.integer(parameter::pole_handling, channel_) != 0;
@@ -121,6 +123,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   handwheel_share_ = p.get(parameter::handwheel_share, channel_);
   jog_renewal_seconds_ = p.get(parameter::jog_renewal_time, channel_);
   plane_angles_by_p_ = p.integer(parameter::plane_angles, channel_) == 1;
+  program_dialect_ = static_cast<language::ProgramDialect>(p.integer(parameter::program_dialect, channel_));
   dwell_point_ = static_cast<language::DwellPoint>(p.integer(parameter::dwell_point, channel_));
   cycles_ = {p.get(parameter::cycle_retract, channel_), p.get(parameter::cycle_clearance, channel_),
              p.integer(parameter::cycle_shift_axis, channel_)};
@@ -132,6 +135,8 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     planes_[i / 9][i / 3 % 3][i % 3] = p.get(parameter::tilted_plane_points, channel_, i);
   for (std::uint32_t i = 0; i < cycle_m_codes_.size(); ++i)
     cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer(parameter::cycle_m_code, 0, i));
+  for (std::uint32_t i = 0; i < angle_m_codes_.size(); ++i)
+    angle_m_codes_[i] = static_cast<std::int16_t>(p.integer(parameter::angle_m_code, 0, i));
   limits_.smoothing_cycles = p.integer(parameter::smoothing_cycles, channel_);
   limits_.contour_tolerance = p.get(parameter::contour_tolerance, channel_);
   limits_.combined_feed = p.integer(parameter::rotary_feed, channel_) == 0;
@@ -161,10 +166,15 @@ void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
   auto next = std::find_if(spindles.begin(), spindles.end(),
                            [&](const auto& spindle) { return first < 0 || spindle.number == first; });
   const auto spindle = [&](auto at) {
-    return at == spindles.end()
-               ? TappingSpindle{}
-               : TappingSpindle{at->number, p.get(parameter::maximum_acceleration, at->number),
-                                p.get(parameter::maximum_speed, at->number)};
+    if (at == spindles.end()) return TappingSpindle{};
+    TappingSpindle found{at->number, p.get(parameter::maximum_acceleration, at->number),
+                         p.get(parameter::maximum_speed, at->number), false};
+    double of_gears = 0;
+    for (std::uint32_t gear = 0; gear < spindle_gears; ++gear)
+      of_gears = std::max(of_gears, p.get(parameter::gear_highest_speed, at->number, gear));
+    found.by_gears = of_gears > 0 && (found.highest_speed == 0 || of_gears < found.highest_speed);
+    if (found.by_gears) found.highest_speed = of_gears;
+    return found;
   };
   tapping_spindles_ = {};
   tapping_spindles_[0] = spindle(next);
@@ -175,6 +185,51 @@ void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
     tapping_spindles_[letter - language::A + 1] = spindle(next);
     if (next != spindles.end()) ++next;
   }
+}
+
+// The dialect counts four spindles: E90310 is the first one's window, E90311 the second one's.
+void ChannelSetup::find_external_parameters(const machine::Parameters& p) {
+  constexpr std::uint32_t most_spindles = 4;
+  constexpr double parts_per_degree = 65536.0 / 360, thousandths = 1000;
+  external_parameters_.clear();
+  std::uint32_t b = 0;
+  for (const auto& spindle : machine::spindles(p)) {
+    if (b == most_spindles) break;
+    const auto of = [&](const machine::NumericParameter& parameter, double scale = 1) {
+      return ExternalParameter{p.get(parameter, spindle.number) * scale, parameter.number(spindle.number),
+                               scale, 0};
+    };
+    external_parameters_[90310 + b] = of(parameter::synchronization_window, parts_per_degree);
+    external_parameters_[90320 + b] = of(parameter::synchronization_gain);
+    external_parameters_[90330 + b] = of(parameter::maximum_acceleration);
+    auto lead = of(parameter::synchronization_phase_lead, thousandths);
+    const auto& by_speed = parameter::speed_dependent_acceleration;
+    lead.further = by_speed.number(spindle.number);
+    if (!(lead.value > 0)) lead.value = p.integer(by_speed, spindle.number);
+    external_parameters_[90360 + b] = lead;
+    external_parameters_[90370 + b] = of(parameter::base_speed);
+    external_parameters_[90380 + b] = of(parameter::power_speed);
+    external_parameters_[98024 + b] = of(parameter::synchronization_integral_time);
+    ++b;
+  }
+}
+
+std::optional<double> ChannelSetup::external_parameter(std::uint32_t number) const {
+  const auto found = external_parameters_.find(number);
+  return found == external_parameters_.end() ? std::nullopt : std::optional(found->second.value);
+}
+
+// Above 0 ACCKFNB switches the acceleration by speed on, which acts on a master, above 1 the phase lead,
+// which acts on a slave: which of the two a spindle will be is not known yet.
+language::ParameterChanges ChannelSetup::external_changes(std::uint32_t number, double value) const {
+  const auto found = external_parameters_.find(number);
+  if (found == external_parameters_.end()) return {};
+  const auto& parameter = found->second;
+  language::ParameterChanges changes;
+  const bool off = parameter.further != 0 && value <= 1;
+  changes.list[changes.count++] = {parameter.parameter, off ? 0 : value / parameter.scale};
+  if (parameter.further != 0) changes.list[changes.count++] = {parameter.further, value > 0 ? 1.0 : 0.0};
+  return changes;
 }
 
 void ChannelSetup::set_tools(const idl::parameters::ToolTable& table) {

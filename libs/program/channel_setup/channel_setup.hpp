@@ -27,6 +27,7 @@ struct TappingSpindle {
   std::optional<std::uint16_t> axis;
   double acceleration = 0;   ///< degrees/s^2
   double highest_speed = 0;  ///< 1/min, 0 = no limit
+  bool by_gears = false;     ///< it is that of the highest gear (10a985), not 10a948
 };
 
 class ChannelSetup : public language::Environment {
@@ -61,7 +62,12 @@ class ChannelSetup : public language::Environment {
   /// Half of parameter 000010; the other half is left to the smoothing of the joints.
   double curve_tolerance() const override { return limits_.arc_tolerance / 2; }
   const language::MFunctions* m_functions() const override { return &m_functions_; }
+  language::AngleMCodes angle_m_codes() const override { return angle_m_codes_; }
   language::DwellPoint dwell_point() const override { return dwell_point_; }
+  language::ProgramDialect program_dialect() const override { return program_dialect_; }
+  /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
+  std::optional<double> external_parameter(std::uint32_t number) const override;
+  language::ParameterChanges external_changes(std::uint32_t number, double value) const override;
   bool plane_angles_by_p() const override { return plane_angles_by_p_; }
   bool combined_feed() const override { return limits_.combined_feed; }
   language::CycleSettings cycle_settings() const override { return cycles_; }
@@ -85,6 +91,10 @@ class ChannelSetup : public language::Environment {
   std::uint16_t axes() const override { return mask_; }
   std::uint16_t spindle_axes() const override { return spindle_mask_; }
   double highest_spindle_speed() const override { return tapping_spindles_[0].highest_speed; }
+  const char* highest_speed_parameter() const override {
+    return tapping_spindles_[0].by_gears ? "10a985" : Environment::highest_speed_parameter();
+  }
+  double highest_feed(std::size_t axis) const override { return limits_.axes[axis].velocity * 60; }
   double radius_deviation() const override { return radius_deviation_; }
   language::TextSource* subprogram(std::string_view name) override {
     auto* stored = resolve ? resolve(name) : nullptr;
@@ -128,6 +138,7 @@ class ChannelSetup : public language::Environment {
 
  private:
   void find_tapping_spindles(const machine::Parameters& parameters);
+  void find_external_parameters(const machine::Parameters& parameters);
   std::string words_of(const language::TravelBreach& breach, std::uint32_t line) const;
   /// Of a move whose tool goes `way`, or rotary axes in proportion when that is null.
   std::optional<language::TravelBreach> breach_of(const AxisValues& from, const language::Command& move,
@@ -158,10 +169,19 @@ class ChannelSetup : public language::Environment {
   language::MFunctions m_functions_;
   bool plane_angles_by_p_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
+  language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;
+  struct ExternalParameter {
+    double value = 0;
+    std::uint32_t parameter = 0;
+    double scale = 1;           ///< times the parameter is the value
+    std::uint32_t further = 0;  ///< ACCKFNB: that of the acceleration; 0 = none
+  };
+  std::map<std::uint32_t, ExternalParameter> external_parameters_;
   language::CycleSettings cycles_;
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};
   std::array<std::uint16_t, 8> cycle_m_codes_{};
+  language::AngleMCodes angle_m_codes_{};
   std::array<TappingSpindle, 7> tapping_spindles_;  // without J, and of J1..J6
   std::uint16_t spindle_mask_ = 0;
   std::array<Travel, language::axis_count> travel_{};

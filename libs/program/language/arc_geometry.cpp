@@ -16,6 +16,25 @@ double sweep_between(double start_first, double start_second, double end_first, 
   return sweep > 0 ? sweep : sweep + 360.0;
 }
 
+Vector3 normal_of(const Arc& arc) {
+  Vector3 n = arc.normal;
+  if (n == Vector3{}) n[plane_axes(arc.plane).normal] = 1;
+  return n;
+}
+
+/// From the axis of the circle to `point`.
+Vector3 arm_of(const AxisValues& point, const Arc& arc, const Vector3& n) {
+  Vector3 d{point[0] - arc.centre[0], point[1] - arc.centre[1], point[2] - arc.centre[2]};
+  const double along = d[0] * n[0] + d[1] * n[1] + d[2] * n[2];
+  for (std::size_t i = 0; i < 3; ++i) d[i] -= along * n[i];
+  return d;
+}
+
+/// `arm` a quarter turn anticlockwise.
+Vector3 left_of(const Vector3& arm, const Vector3& n) {
+  return {n[1] * arm[2] - n[2] * arm[1], n[2] * arm[0] - n[0] * arm[2], n[0] * arm[1] - n[1] * arm[0]};
+}
+
 }  // namespace
 
 AlarmNumber arc_from_centre(const AxisValues& start, const AxisValues& target,
@@ -65,19 +84,10 @@ AlarmNumber arc_from_radius(const AxisValues& start, const AxisValues& target, d
 }
 
 AxisValues point_on_arc(const AxisValues& start, const AxisValues& target, const Arc& arc, double share) {
-  Vector3 n = arc.normal;
-  if (n == Vector3{}) n[plane_axes(arc.plane).normal] = 1;
-  const auto arm = [&](const AxisValues& p) {
-    Vector3 d{p[0] - arc.centre[0], p[1] - arc.centre[1], p[2] - arc.centre[2]};
-    const double along = d[0] * n[0] + d[1] * n[1] + d[2] * n[2];
-    for (std::size_t i = 0; i < 3; ++i) d[i] -= along * n[i];
-    return d;
-  };
-  const Vector3 from = arm(start), to = arm(target);
+  const Vector3 n = normal_of(arc), from = arm_of(start, arc, n), to = arm_of(target, arc, n);
   const double radius = std::hypot(from[0], from[1], from[2]);
   const double growth = std::hypot(to[0], to[1], to[2]) - radius;
-  const Vector3 left{n[1] * from[2] - n[2] * from[1], n[2] * from[0] - n[0] * from[2],
-                     n[0] * from[1] - n[1] * from[0]};
+  const Vector3 left = left_of(from, n);
   const double sweep = arc.sweep / degrees_per_radian * (arc.clockwise ? -1 : 1);
   const auto on_circle = [&](double s, std::size_t i) {
     return (1 + growth * s / radius) * (std::cos(s * sweep) * from[i] + std::sin(s * sweep) * left[i]);
@@ -93,6 +103,22 @@ AxisValues point_on_arc(const AxisValues& start, const AxisValues& target, const
     point[axis] += on_circle(share, axis) - from[axis] + share * rest;
   }
   return point;
+}
+
+// Along an axis the circle is from cos a + across sin a, a from 0 to the sweep.
+std::array<double, 2> turning_shares(const AxisValues& start, const Arc& arc, std::size_t axis) {
+  std::array<double, 2> shares{-1, -1};
+  const Vector3 n = normal_of(arc), from = arm_of(start, arc, n), left = left_of(from, n);
+  const double across = arc.clockwise ? -left[axis] : left[axis];
+  if (from[axis] == 0 && across == 0) return shares;
+  const double sweep = arc.sweep / degrees_per_radian;
+  double angle = std::atan2(across, from[axis]);
+  if (angle < 0) angle += std::numbers::pi;
+  for (double& share : shares) {
+    if (angle < sweep) share = angle / sweep;
+    angle += std::numbers::pi;
+  }
+  return shares;
 }
 
 }  // namespace trunnion::language

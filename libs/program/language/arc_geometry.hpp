@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <numbers>
 
 #include "language/alarms.hpp"
@@ -30,5 +31,9 @@ AlarmNumber arc_from_radius(const AxisValues& start, const AxisValues& target, d
 /// Where the arc from `start` to `target` is when `share` (0..1) of its sweep is done: on the circle or
 /// helix, the radius running linearly between those of its ends; all other axes in proportion.
 AxisValues point_on_arc(const AxisValues& start, const AxisValues& target, const Arc& arc, double share);
+
+/// Shares (0..1) of its sweep at which the circle from `start` turns back along `axis` (X, Y or Z): the first
+/// two, half a turn apart, behind which it only repeats itself. Below 0: there is none.
+std::array<double, 2> turning_shares(const AxisValues& start, const Arc& arc, std::size_t axis);
 
 }  // namespace trunnion::language

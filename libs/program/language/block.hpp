@@ -31,8 +31,8 @@ enum class Head : std::uint8_t {
   program,    ///< %1234 or O1234
 };
 
-/// What a block does beside its words. IF ... GOTO and IF ... THEN with something behind are gone: they are
-/// what is behind them, or an empty block.
+/// What a block does beside its words, which in the NUM dialect may be behind THEN and DO, too. IF ... GOTO
+/// and IF ... THEN with something behind are gone: they are what is behind them, or an empty block.
 enum class Statement : std::uint8_t {
   none,
   assignment,  ///< done by the reader
@@ -60,13 +60,27 @@ struct CallCentre {
 
 /// Words behind a comma, kept as two further letters: ,C a chamfer and ,R a rounding at the end of the move.
 inline constexpr char chamfer_word = 'A' + 26, rounding_word = 'A' + 27;
-inline constexpr std::size_t word_count = 28;
+/// The NUM dialect has no commas, but words of two letters: EC, EX and EZ of threads, EK, EH and ER of rigid
+/// tapping.
+inline constexpr char taught_angle_word = 'A' + 26, taught_x_word = 'A' + 27, taught_z_word = 'A' + 28;
+inline constexpr char retract_ratio_word = 'A' + 29, work_plane_word = 'A' + 30, approach_word = 'A' + 31;
+inline constexpr std::size_t word_count = 32;
+
+/// What the thread of a block has to do with the threads around it.
+enum class ThreadBlock : std::uint8_t {
+  chained,  ///< one thread with those that come directly before and behind it
+  first,    ///< begins a thread (NUM: G38+)
+  alone,    ///< is a whole thread; the motion code from before it is active again behind it (NUM: G33)
+};
 
 /// A letter except G and M occurs at most once in a block, so words are looked up by letter.
 struct Block {
   Head head = Head::none;
   bool skipped = false;  ///< begins with / and that level is switched on; nothing else of it was read
+  bool message = false;  ///< shows the text behind $ of its line (NUM)
   bool condition = false;
+  char lead_word = 'F';  ///< of threads and taps; with K (NUM), F is a feed
+  ThreadBlock thread = ThreadBlock::chained;
   Statement statement = Statement::none;
   std::uint8_t g_count = 0;
   std::uint8_t m_count = 0;
@@ -75,8 +89,9 @@ struct Block {
   std::uint16_t rest = 0;  ///< byte behind the word of the statement
   std::uint32_t label = 0;
   std::uint32_t program_number = 0;
+  std::uint32_t called = 0;  ///< the program that the M98 among `m` calls, when P does not name it; 0: P does
   std::uint32_t pointed = 0;  ///< those of `letters` whose number is written with a decimal point
-  std::uint32_t letters = 0;  ///< bit 0 = A .. bit 25 = Z, then ,C and ,R; G and M are not in it
+  std::uint32_t letters = 0;  ///< bit 0 = A .. bit 25 = Z, then the others; G and M are not in it
   std::array<double, word_count> values{};
   std::array<std::uint16_t, word_count> offsets{};
   std::array<CodeWord, max_g_codes> g{};
@@ -89,12 +104,17 @@ struct Block {
   bool has(char letter) const { return (letters & bit(letter)) != 0; }
   double value(char letter) const { return values[static_cast<std::size_t>(letter - 'A')]; }
   std::uint16_t offset(char letter) const { return offsets[static_cast<std::size_t>(letter - 'A')]; }
-  bool empty() const { return letters == 0 && g_count == 0 && m_count == 0; }
+  bool empty() const { return letters == 0 && g_count == 0 && m_count == 0 && !message; }
+  /// It holds more than its sequence number and its statement.
+  bool has_more() const { return (letters & ~bit('N')) != 0 || g_count != 0 || m_count != 0 || message; }
   /// Makes the block empty; what is absent keeps what it had and means nothing.
   void clear() {
     head = Head::none;
-    skipped = false;
+    skipped = message = false;
+    lead_word = 'F';
+    thread = ThreadBlock::chained;
     statement = Statement::none;
+    called = 0;
     g_count = m_count = centre_count = argument_count = 0;
     letters = pointed = 0;
   }
@@ -112,10 +132,19 @@ struct Outline {
 /// Bit n - 1 for block skip level n: /1 .. /9; a lone / is /1.
 using SkipLevels = std::uint16_t;
 
-/// How one dialect writes blocks. Implementations keep no state.
+/// What differs between dialects besides the form of a block.
+struct DialectRules {
+  bool text_ends_subprograms = false;  ///< their text or M2 ends them, and the caller continues
+  bool cycle_m_codes = true;           ///< the M codes of parameters 010170 .. 010177 call cycles
+  std::uint32_t homing_program = 0;    ///< a call of it, unless it is stored, homes the axis of L0; 0: none
+};
+
+/// How one dialect writes blocks. A reader hands over the codes of `g_codes` and `m_codes`, under whatever
+/// numbers its dialect has them. Implementations keep no state.
 class Dialect {
  public:
   virtual ~Dialect() = default;
+  virtual DialectRules rules() const { return {}; }
   /// Reads one line (without its line end) into `block`; assignments in it are carried out.
   virtual Fault read_block(std::string_view line, SkipLevels skip, Variables& variables,
                            Block& block) const = 0;

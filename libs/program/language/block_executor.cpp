@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/block_executor.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdio>
 
 namespace trunnion::language {
 namespace {
 
 constexpr std::uint32_t highest_repetition = 999999;
+constexpr double largest_angle = 360;  // deg
+constexpr double read_seconds = 0.01;  // behind which a value is read: the PLC's main task has run
 
 /// The groups from `first` to `last`, which act one after the other.
 constexpr std::uint32_t groups(Group first, Group last) { return (group_bit(last) << 1) - group_bit(first); }
@@ -29,12 +33,15 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     settings.intermediate.reset();
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
+    state.thread_lead = 0;
   }
-  state.needs_position = false;
+  state.needs_position = state.homing = false;
+  state.homed = 0;
   context_.tables.load(context_.environment);
   settings.frame.set_work_offset(context_.tables.work_offset(state.modal.work_offset));
   settings.frame.set_tilt(state.modal.tilt);
   context_.words.configure(context_.environment);
+  angle_codes_ = context_.environment.angle_m_codes();
   context_.output.start();
   context_.activity = Activity::none;
   m_codes_due_ = false;
@@ -51,6 +58,7 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
   if (const Fault fault = context_.words.begin(block)) return fault;
   if (const Fault fault = check_context()) return fault;
   context_.state.begin_block();
+  if (block.message) context_.output.push(CommandKind::message).number = line_message;
   Fault fault = run(flow);
   if (!fault) fault = context_.output.check_room();
   if (fault) {
@@ -63,8 +71,14 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
 
 Fault BlockExecutor::run(Flow& flow) {
   if (const Fault fault = carry_out(groups(Group::exact_stop, Group::feed_mode))) return fault;
-  if (const Fault fault = handlers_.modal.feed_word()) return fault;
+  // F of a search for references is its speed, and no feed.
+  const bool homes =
+      context_.words.g().is(Group::one_block, 282) || context_.words.g().is(Group::one_block, 1590);
+  if (!homes) {
+    if (const Fault fault = handlers_.modal.feed_word()) return fault;
+  }
   if (const Fault fault = carry_out(group_bit(Group::spindle_mode))) return fault;
+  if (const Fault fault = select_spindle()) return fault;
   if (const Fault fault = handlers_.modal.spindle_word()) return fault;
   if (const Fault fault = handlers_.modal.tool_word()) return fault;
   if (const Fault fault = auxiliary(When::before)) return fault;
@@ -78,6 +92,8 @@ Fault BlockExecutor::run(Flow& flow) {
                                                             : handlers_.tool.radius_word())
     return fault;
   if (const Fault fault = act()) return fault;
+  if (context_.words.thread() == ThreadBlock::alone)
+    context_.state.modal.motion = context_.state.at_block_begin().modal.motion;
   if (const Fault fault = set_flow(flow)) return fault;
   if (const Fault fault = context_.words.report_unused()) return fault;
   m_codes_due_ = context_.activity != Activity::none;
@@ -148,6 +164,7 @@ Fault BlockExecutor::act() {
   const GCodes& g = context_.words.g();
   const bool one_block = g.has(Group::one_block);
   if (handlers_.curve.open()) return handlers_.curve.add_block();
+  if (orientation_word() != '\0') return {};
   if (context_.state.parameter_input && !one_block) return handlers_.tables.parameter_line();
   if ((g.present() & (frame_groups | group_bit(Group::one_block))) != 0) {
     bool taken = false;
@@ -156,31 +173,98 @@ Fault BlockExecutor::act() {
     if (taken || one_block) return {};
   }
   const ModalState& modal = context_.state.modal;
-  if (modal.cycle != 80) return handlers_.cycles.run();
+  if (modal.cycle != 80)
+    return handlers_.num_tapping.active() ? handlers_.num_tapping.run() : handlers_.cycles.run();
   if (modal.motion == 62) return handlers_.curve.begin();
   return handlers_.motion.move();
 }
 
 Fault BlockExecutor::auxiliary(When when) {
   const MCodes& m = context_.words.m();
-  ModalState& modal = context_.state.modal;
   for (std::size_t i = 0; i < m.count; ++i) {
-    const MCode& code = m.codes[i];
-    if (code.when != when) continue;
-    if (code.action == MAction::tool_change) modal.tool = modal.selected_tool;
-    if (code.group == MGroup::spindle) {
-      context_.state.parked = SpindleDirection::stopped;
-      modal.spindle_direction = code.number == 3   ? SpindleDirection::cw
-                                : code.number == 4 ? SpindleDirection::ccw
-                                                   : SpindleDirection::stopped;
-    }
-    if (code.action == MAction::auxiliary || code.action == MAction::tool_change) {
-      context_.output.push(CommandKind::auxiliary).number = code.number;
-    } else if (code.action == MAction::program_end) {
-      if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, m.offsets[i]};
-      if (const Fault fault = context_.output.push_end(code.number)) return fault;
-    }
+    if (m.codes[i].when != when || selects_spindle(m.codes[i])) continue;
+    if (const Fault fault = carry_out(m.codes[i], m.offsets[i])) return fault;
   }
+  return {};
+}
+
+Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
+  ModalState& modal = context_.state.modal;
+  if (code.action == MAction::tool_change) modal.tool = modal.selected_tool;
+  if (code.group == MGroup::spindle) {
+    context_.state.parked = SpindleDirection::stopped;
+    modal.spindle_direction = code.number == 3   ? SpindleDirection::cw
+                              : code.number == 4 ? SpindleDirection::ccw
+                                                 : SpindleDirection::stopped;
+  }
+  if (code.action == MAction::auxiliary || code.action == MAction::tool_change) {
+    const char word = takes_angle(code.number) ? orientation_word() : '\0';
+    double angle = 0;
+    if (word != '\0') {
+      if (const Fault fault = orientation(code.number, word, angle)) return fault;
+    }
+    Command& command = context_.output.push(CommandKind::auxiliary);
+    command.number = code.number;
+    command.value = angle;
+    command.has_value = word != '\0';
+  } else if (code.action == MAction::program_end) {
+    if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, at};
+    if (const Fault fault = context_.output.push_end(code.number)) return fault;
+  }
+  return {};
+}
+
+// The S of a block of the NUM dialect is for the spindle that its M64 to M66 chooses.
+bool BlockExecutor::selects_spindle(const MCode& code) const {
+  constexpr std::uint16_t first_spindle = 64, last_spindle = 66;
+  return context_.environment.program_dialect() == ProgramDialect::num && code.number >= first_spindle &&
+         code.number <= last_spindle;
+}
+
+Fault BlockExecutor::select_spindle() {
+  const MCodes& m = context_.words.m();
+  for (std::size_t i = 0; i < m.count; ++i) {
+    if (!selects_spindle(m.codes[i])) continue;
+    if (const Fault fault = carry_out(m.codes[i], m.offsets[i])) return fault;
+  }
+  return {};
+}
+
+bool BlockExecutor::takes_angle(std::uint16_t code) const {
+  return std::find(angle_codes_.begin(), angle_codes_.end(), static_cast<std::int16_t>(code)) !=
+         angle_codes_.end();
+}
+
+// Where nothing else of the block can mean R or P.
+char BlockExecutor::orientation_word() const {
+  constexpr std::uint32_t others = axis_bits | letter_bits("IJK");
+  const BlockWords& words = context_.words;
+  const ModalState& modal = context_.state.modal;
+  if (words.g().present() != 0 || (words.letters() & others) != 0) return '\0';
+  if (modal.cycle != 80 || modal.motion == 62 || handlers_.curve.open() || context_.state.parameter_input)
+    return '\0';
+  bool orients = false;
+  for (std::size_t i = 0; i < words.m().count; ++i) {
+    const MCode& code = words.m().codes[i];
+    if (code.action == MAction::call || code.action == MAction::go_back) return '\0';
+    orients = orients || takes_angle(code.number);
+  }
+  return !orients ? '\0' : words.has('R') ? 'R' : words.has('P') ? 'P' : '\0';
+}
+
+Fault BlockExecutor::orientation(std::uint16_t code, char word, double& angle) {
+  context_.words.use(word);
+  const double value = context_.words.value(word);
+  if (std::abs(value) > largest_angle) {
+    FaultDetail& detail = context_.detail;
+    detail.number = AlarmNumber::value_range;
+    std::snprintf(detail.text.data(), detail.text.size(), "the angle of M%u is -360 to 360 deg",
+                  static_cast<unsigned>(code));
+    return {detail.number, context_.words.offset(word)};
+  }
+  angle = std::fmod(value, largest_angle);
+  if (angle < 0) angle += largest_angle;
+  if (!(angle > 0 && angle < largest_angle)) angle = 0;
   return {};
 }
 
@@ -210,6 +294,11 @@ Fault BlockExecutor::set_flow(Flow& flow) {
 Fault BlockExecutor::set_call(Flow& flow) {
   BlockWords& words = context_.words;
   flow.kind = Flow::Kind::call;
+  if (words.called() != 0) {
+    flow.subprogram = words.called();
+    flow.counted = true;
+    return {};
+  }
   if (!words.has('P')) return {AlarmNumber::missing_word, flow.offset, needs('P')};
   // P and L have one meaning each: a dwell or turns in the same block leave none for the call.
   for (const char letter : {'P', 'L'}) {
@@ -223,7 +312,7 @@ Fault BlockExecutor::set_call(Flow& flow) {
 
 void BlockExecutor::set_position(const AxisValues& position) {
   if (context_.output.compensating()) context_.output.drop_compensation();
-  context_.state.needs_position = false;
+  context_.state.needs_position = context_.state.homing = false;
   context_.state.locate(position);
 }
 
@@ -275,11 +364,47 @@ Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::u
   return context_.output.settle();
 }
 
+Fault BlockExecutor::home_axis(std::size_t axis, std::uint32_t program, std::uint32_t line,
+                               CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  if (const Fault fault = handlers_.positioning.home_axis(axis)) return fault;
+  return context_.output.settle();
+}
+
 Fault BlockExecutor::call_cycle(std::uint32_t number, std::uint32_t program, std::uint32_t line,
                                 CommandQueue& out) {
   context_.output.begin(program, line, out);
   if (const Fault fault = context_.output.refuse_in_compensation(0)) return fault;
   context_.output.push(CommandKind::cycle).number = number;
+  return context_.output.settle();
+}
+
+Fault BlockExecutor::read_value(std::uint32_t number, std::uint32_t program, std::uint32_t line,
+                                CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  if (const Fault fault = context_.output.refuse_in_compensation(0)) return fault;
+  Command& command = context_.output.push(CommandKind::read);
+  command.number = number;
+  command.dwell_seconds = read_seconds;
+  return context_.output.settle();
+}
+
+Fault BlockExecutor::order_spindle(std::uint32_t number, double value, std::uint32_t program,
+                                   std::uint32_t line, CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  Command& command = context_.output.push(CommandKind::spindle_order);
+  command.number = number;
+  command.value = value;
+  return context_.output.settle();
+}
+
+Fault BlockExecutor::write_parameter(std::uint32_t number, double value, std::uint32_t program,
+                                     std::uint32_t line, CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  Command& command = context_.output.push(CommandKind::table);
+  command.table = Table::parameter;
+  command.number = number;
+  command.value = value;
   return context_.output.settle();
 }
 

@@ -15,6 +15,9 @@ enum class Beginning : std::uint8_t {
   line,     ///< everything but cutter radius compensation: a further line of manual data input
 };
 
+/// Number of a CommandKind::message whose text is behind the $ of its line; those of #3006 are at most 9999.
+inline constexpr std::uint32_t line_message = 10000;
+
 /// Where the program continues after a block.
 struct Flow {
   enum class Kind : std::uint8_t { next, call, go_back, end };
@@ -27,7 +30,7 @@ struct Flow {
 };
 
 /// Executes blocks one after the other. Order within a block, which is not the order of its words:
-///  1. units, feed mode, F            2. S                    3. T
+///  1. units, feed mode, F            2. M64 to M66 of the NUM dialect, S    3. T
 ///  4. M that act before the motion   5. plane, distance, path control, work offset, polar, G98 G99, G5.1
 ///  6. tool length, tool tip control, cutter radius compensation, cycle off
 ///  7. scaling, mirror, rotation, tilted plane
@@ -61,8 +64,13 @@ class BlockExecutor {
   bool busy() const { return context_.activity != Activity::none || context_.output.draining(); }
   Fault resume(CommandQueue& out);
 
-  /// A skip move (G31) was given out: nothing can be executed before set_position() reports where it ended.
+  /// A skip move (G31) or a search for references (G28.2) was given out: nothing can be executed before
+  /// set_position() reports where it ended.
   bool needs_position() const { return context_.state.needs_position; }
+  /// It is the search.
+  bool homing() const { return context_.state.homing; }
+  /// The axes that the searches since start() name, bit a for Axis a.
+  std::uint16_t homed() const { return context_.state.homed; }
 
   /// Appends the end of the program; `number` as Command::number.
   Fault end_program(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
@@ -84,9 +92,22 @@ class BlockExecutor {
   /// read.
   Fault message(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
+  /// Appends the search for the reference of `axis` at F, if the channel has it.
+  Fault home_axis(std::size_t axis, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+
   /// Appends the call of a cycle of another service, `number` as Command::number. Not with cutter radius
   /// compensation: its moves need blocks that are not read yet.
   Fault call_cycle(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+
+  /// Appends the reading of a value, `number` as Command::number. Not with cutter radius compensation, as
+  /// above.
+  Fault read_value(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+  /// Appends an order for a spindle, `number` as Command::number.
+  Fault order_spindle(std::uint32_t number, double value, std::uint32_t program, std::uint32_t line,
+                      CommandQueue& out);
+  /// Appends the change of a parameter as G10 L50 does.
+  Fault write_parameter(std::uint32_t number, double value, std::uint32_t program, std::uint32_t line,
+                        CommandQueue& out);
 
   const ModalState& modal() const { return context_.state.modal; }
   /// Where the last move that was read ends, in the frame of its commands. With cutter compensation this is
@@ -116,12 +137,22 @@ class BlockExecutor {
   Fault check_context() const;
   Fault finish_block();
   Fault auxiliary(When when);
+  Fault carry_out(const MCode& code, std::uint16_t at);
+  Fault select_spindle();
+  bool selects_spindle(const MCode& code) const;
+  /// The block of M`code` may give an angle.
+  bool takes_angle(std::uint16_t code) const;
+  /// The letter of the angle of such an M code (M19), R or P; 0 when the block has none.
+  char orientation_word() const;
+  /// deg in [0, 360), of M`code`.
+  Fault orientation(std::uint16_t code, char word, double& angle);
   Fault set_flow(Flow& flow);
   Fault set_call(Flow& flow);
 
   BlockContext context_;
   BlockHandlers handlers_;
   Beginning beginning_ = Beginning::program;
+  AngleMCodes angle_codes_{};
   bool m_codes_due_ = false;  // those behind the motion, when the activity has ended
 };
 

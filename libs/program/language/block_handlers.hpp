@@ -6,9 +6,11 @@
 #include "language/drilling_cycles.hpp"
 #include "language/frame_codes.hpp"
 #include "language/modal_codes.hpp"
+#include "language/num_tapping.hpp"
 #include "language/path_motion.hpp"
 #include "language/positioning.hpp"
 #include "language/table_codes.hpp"
+#include "language/tap_removal.hpp"
 #include "language/tilted_planes.hpp"
 #include "language/tool_codes.hpp"
 #include "language/tool_vector_motion.hpp"
@@ -26,7 +28,9 @@ struct BlockHandlers {
         vectors(context),
         motion(context, vectors),
         curve(context),
-        cycles(context) {}
+        cycles(context),
+        num_tapping(context),
+        tap_removal(context) {}
 
   ModalCodes modal;
   ToolCodes tool;
@@ -38,6 +42,8 @@ struct BlockHandlers {
   PathMotion motion;
   CurveMotion curve;
   DrillingCycles cycles;
+  NumTapping num_tapping;
+  TapRemoval tap_removal;
 };
 
 }  // namespace trunnion::language

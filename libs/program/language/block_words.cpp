@@ -46,7 +46,7 @@ Fault BlockWords::collect_g() {
   for (std::size_t i = 0; i < block_->g_count; ++i) {
     const CodeWord& word = block_->g[i];
     const double tenths = std::round(word.value * 10);
-    const bool exact = std::abs(word.value * 10 - tenths) < 1e-9 && tenths >= 0 && tenths < 1000;
+    const bool exact = std::abs(word.value * 10 - tenths) < 1e-9 && tenths >= 0 && tenths < 10000;
     const GCode* const code = exact ? g_code(static_cast<std::uint32_t>(tenths)) : nullptr;
     if (code == nullptr) return {AlarmNumber::unknown_g, word.offset};
     if (g_.has(code->group)) return {AlarmNumber::group_twice, word.offset};
@@ -127,7 +127,10 @@ double BlockWords::length(char letter) {
 }
 
 double BlockWords::axis(std::size_t axis) const {
-  const double word = block_->value(axis_letters[axis]);
+  return in_axis_unit(block_->value(axis_letters[axis]), axis);
+}
+
+double BlockWords::in_axis_unit(double word, std::size_t axis) const {
   if (is_rotary(axis)) return word;
   return word * length_scale() * (diameter_ && axis == X ? 0.5 : 1.0);
 }

@@ -72,6 +72,13 @@ class BlockWords {
   /// Where the block's first code is, or its first letter when it has none.
   std::uint16_t first_offset() const;
   bool has_codes() const { return block_->g_count != 0 || block_->m_count != 0; }
+  /// As Block::message.
+  bool shows_message() const { return block_->message; }
+  /// As Block::called.
+  std::uint32_t called() const { return block_->called; }
+  /// As Block::lead_word and Block::thread.
+  char lead_word() const { return block_->lead_word; }
+  ThreadBlock thread() const { return block_->thread; }
   /// One G code and nothing else but the sequence number.
   bool single_code() const;
 
@@ -91,6 +98,11 @@ class BlockWords {
   double length(char letter);
   /// mm or degrees, as programmed for the axis (diameters halved).
   double axis(std::size_t axis) const;
+  /// A word that counts as those of `axis`.
+  double along(char letter, std::size_t axis) {
+    use(letter);
+    return in_axis_unit(block_->value(letter), axis);
+  }
   /// The axes named, a bit for each; the channel must have them.
   Fault find_axes(std::uint32_t& axes) const;
   /// The axes named, at least one, all of them used.
@@ -99,6 +111,7 @@ class BlockWords {
   double length_scale() const { return modal_.metric ? 1.0 : 25.4; }
 
  private:
+  double in_axis_unit(double word, std::size_t axis) const;
   Fault check_numbers() const;
   Fault collect_g();
   Fault collect_m();

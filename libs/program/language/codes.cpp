@@ -63,6 +63,11 @@ constexpr std::array rows = {
           run<&BlockHandlers::positioning, &Positioning::return_to_reference>,
           "the named axes over the point given to the reference position, in rapid", Origin::iso, "0.1",
           "G28 X1"},
+    GCode{
+        282, Group::one_block, AxisWords::taken, run<&BlockHandlers::positioning, &Positioning::home>,
+        "search of the references of the axes named, one after the other: X Y Z, U V W, A B C; F its speed, "
+        "at most the axis' own",
+        Origin::g2core, "0.3", "G28.2 X0 Z0"},
     GCode{290, Group::one_block, AxisWords::taken,
           run<&BlockHandlers::positioning, &Positioning::return_from_reference>,
           "from the reference position over the point of the last G28 or G30 to the point given, in rapid",
@@ -73,6 +78,15 @@ constexpr std::array rows = {
     GCode{310, Group::one_block, AxisWords::taken,
           run<&BlockHandlers::positioning, &Positioning::move_until_skip>,
           "line that ends when skip input L (1 without L) comes", Origin::hnc, "0.2", "G31 L1 X1 F100"},
+    GCode{320, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 33>,
+          "as G33", Origin::fanuc, "0.3", "S100 M3\nG32 Z-1 F0.5"},
+    GCode{330, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 33>,
+          "thread: line that follows the turning spindle; F lead in a revolution of the axis that goes "
+          "farthest, Q angle of the start behind the index mark in degrees",
+          Origin::iso, "0.3", "S100 M3\nG33 Z-1 F0.5 Q180"},
+    GCode{340, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 34>,
+          "thread with variable lead: as G33, K change of the lead in each revolution", Origin::iso, "0.3",
+          "S100 M3\nG34 Z-1 F0.5 K0.1"},
     GCode{400, Group::cutter_compensation, AxisWords::move,
           run<&BlockHandlers::tool, &ToolCodes::set_cutter_side, CutterSide::off>,
           "cutter radius compensation off; I J K: the direction in which the contour would continue",
@@ -208,6 +222,9 @@ constexpr std::array rows = {
           "deep drilling: Q per peck, out to R between", Origin::iso, "0.2", "G83 Z-4 R1 Q2 F100"},
     GCode{840, Group::cycle, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_cycle, 84>,
           "rigid tapping, right-hand thread; words as G74", Origin::iso, "0.2", "G95 S100 G84 Z-4 R1 F1"},
+    GCode{849, Group::one_block, AxisWords::taken, run<&BlockHandlers::tap_removal, &TapRemoval::run>,
+          "removal of a tap: one axis word, how far out from the position; K lead, negative left-hand; S",
+          Origin::num, "0.3", "S200 G84.9 Z12 K1.25"},
     GCode{850, Group::cycle, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_cycle, 85>,
           "boring, out at feed", Origin::iso, "0.2", "G85 Z-4 R1 F100"},
     GCode{860, Group::cycle, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_cycle, 86>,
@@ -240,23 +257,30 @@ constexpr std::array rows = {
     GCode{950, Group::feed_mode, AxisWords::move,
           run<&BlockHandlers::modal, &ModalCodes::set_feed_mode, FeedMode::per_revolution>,
           "feed per spindle revolution", Origin::iso, "0.1", "G95"},
-    GCode{960, Group::spindle_mode, AxisWords::move,
-          run<&BlockHandlers::modal, &ModalCodes::set_spindle_mode, SpindleMode::surface>,
-          "constant surface speed: S in m/min (ft/min with G20)", Origin::iso, "0.2", "G96 S100"},
+    GCode{
+        960, Group::spindle_mode, AxisWords::move,
+        run<&BlockHandlers::modal, &ModalCodes::set_spindle_mode, SpindleMode::surface>,
+        "constant surface speed: S in m/min (ft/min with G20), the speed follows X within the limit of G92 S",
+        Origin::iso, "0.2", "G96 S100"},
     GCode{970, Group::spindle_mode, AxisWords::move,
           run<&BlockHandlers::modal, &ModalCodes::set_spindle_mode, SpindleMode::speed>,
-          "constant spindle speed: S in 1/min", Origin::iso, "0.2", "G97 S100"},
+          "constant spindle speed: S in 1/min; without S behind G96 the speed that it has", Origin::iso,
+          "0.2", "G97 S100"},
     GCode{980, Group::return_level, AxisWords::move,
           run<&BlockHandlers::modal, &ModalCodes::set_return_level, true>,
           "cycles end at the level they were called at", Origin::iso, "0.2", "G98"},
     GCode{990, Group::return_level, AxisWords::move,
           run<&BlockHandlers::modal, &ModalCodes::set_return_level, false>, "cycles end at R", Origin::iso,
           "0.2", "G99"},
+    GCode{1590, Group::one_block, AxisWords::taken, run<&BlockHandlers::positioning, &Positioning::home>,
+          "as G28.2; a letter alone names an axis", Origin::num, "0.3", "G159 X Z"},
 };
 
 constexpr std::uint8_t no_code = 0xff;
+constexpr std::size_t g_numbers = 1600;  // tenths below it can be codes
+static_assert(rows.back().tenths < g_numbers && rows.size() < no_code);
 constexpr auto g_index = [] {
-  std::array<std::uint8_t, 1000> index{};
+  std::array<std::uint8_t, g_numbers> index{};
   index.fill(no_code);
   for (std::size_t i = 0; i < rows.size(); ++i) index[rows[i].tenths] = static_cast<std::uint8_t>(i);
   return index;

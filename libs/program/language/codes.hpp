@@ -39,9 +39,11 @@ inline constexpr std::size_t group_count = 19;
 
 /// Where a code comes from.
 enum class Origin : std::uint8_t {
-  iso,    ///< ISO 6983, and the same on every control of this family
-  fanuc,  ///< as on Fanuc controls
-  hnc,    ///< as on HNC-8 controls
+  iso,     ///< ISO 6983, and the same on every control of this family
+  fanuc,   ///< as on Fanuc controls
+  hnc,     ///< as on HNC-8 controls
+  num,     ///< as on NUM controls
+  g2core,  ///< as on g2core and TinyG
 };
 
 /// What the axis words of a block with the code mean.
@@ -106,7 +108,8 @@ inline constexpr std::array m_codes = {
     MCode{7, When::before, MAction::auxiliary, MGroup::none, "mist coolant on"},
     MCode{8, When::before, MAction::auxiliary, MGroup::none, "flood coolant on"},
     MCode{9, When::after, MAction::auxiliary, MGroup::none, "coolant off"},
-    MCode{19, When::before, MAction::auxiliary, MGroup::spindle, "spindle stop at its reference angle"},
+    MCode{19, When::before, MAction::auxiliary, MGroup::spindle,
+          "spindle stop at its reference angle, or at R or P in deg"},
     MCode{30, When::after, MAction::program_end, MGroup::flow, "program end and rewind"},
     MCode{98, When::after, MAction::call, MGroup::flow, "subprogram call: P number, L repetitions"},
     MCode{99, When::after, MAction::go_back, MGroup::flow, "subprogram end"},
@@ -122,10 +125,15 @@ constexpr MCode m_code(std::uint16_t number) {
   return {number, When::before, MAction::auxiliary, MGroup::none, "auxiliary function"};
 }
 
-/// T, S, and M codes that do not only steer the program's flow: what the PLC carries out and going back along
-/// the path does not undo.
+/// The modal motion code `motion` cuts a thread.
+constexpr bool is_thread(std::uint8_t motion) { return motion == 33 || motion == 34; }
+
+/// T, S, orders for spindles, and M codes that do not only steer the program's flow: what the PLC carries out
+/// and going back along the path does not undo.
 constexpr bool changes_machine(const Command& command) {
-  if (command.kind == CommandKind::tool || command.kind == CommandKind::spindle_speed) return true;
+  if (command.kind == CommandKind::tool || command.kind == CommandKind::spindle_speed ||
+      command.kind == CommandKind::spindle_order)
+    return true;
   return command.kind == CommandKind::auxiliary &&
          m_code(static_cast<std::uint16_t>(command.number)).group != MGroup::flow;
 }

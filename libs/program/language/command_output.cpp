@@ -3,7 +3,11 @@
 
 #include <cmath>
 
+#include "canonical/turning_speed.hpp"
+#include "language/turned_move.hpp"
+
 namespace trunnion::language {
+
 void CommandOutput::start() {
   kept_revision_.reset();
   compensation_.reset();
@@ -69,7 +73,7 @@ Command& CommandOutput::push(CommandKind kind) {
     place = &scratch_;
   }
   moves_ |= kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc ||
-            kind == CommandKind::skip || kind == CommandKind::tap;
+            kind == CommandKind::skip || kind == CommandKind::tap || kind == CommandKind::thread;
   Command& command = *place;
   command = Command{};
   command.kind = kind;
@@ -114,16 +118,38 @@ Fault CommandOutput::move_straight(const StraightMove& move, const AxisValues& p
   }
   state_.program_position = program;
   if (!moves) return {};
+  const AxisValues start = state_.position;
   state_.position = target;
+  if (move.kind == CommandKind::line && !move.chord && linear) push_turned_pieces(start);
   Command& command = push(move.kind);
   command.chord = move.chord;
   if (move.chord) command.modal.path_control = PathControl::continuous;
   command.number = move.number;
   command.value = move.value;
+  command.lead_change = move.lead_change;
+  command.start_angle = move.start_angle;
+  command.spindle_speed = move.spindle_speed;
+  command.out = move.out;
   if (move.kind != CommandKind::rapid && !linear && state_.modal.feed_mode != FeedMode::inverse_time) {
     command.modal.feed /= state_.modal.metric ? 1.0 : 25.4;
   }
   return {};
+}
+
+void CommandOutput::push_turned_pieces(const AxisValues& start) {
+  const ModalState& modal = state_.modal;
+  if (modal.spindle_mode != SpindleMode::surface || modal.feed_mode != FeedMode::per_revolution) return;
+  const double limit = canonical::lower_limit(modal.spindle_limit, environment_.highest_spindle_speed());
+  if (!(limit > 0) || !queue_->has_room_for(Divisions::most)) return;
+  const double centre = state_.frame().total_offset()[X];
+  const Divisions divisions = divide_turned_move(start[X] - centre, state_.position[X] - centre,
+                                                 canonical::radius_of_limit(modal.surface_speed, limit));
+  for (std::size_t i = 0; i < divisions.count; ++i) {
+    Command& piece = push(CommandKind::line);
+    for (std::size_t axis = 0; axis < axis_count; ++axis)
+      piece.target[axis] = start[axis] + divisions.share[i] * (state_.position[axis] - start[axis]);
+    piece.modal.path_control = PathControl::continuous;
+  }
 }
 
 Fault CommandOutput::move_straight_in_command_frame(CommandKind kind, const AxisValues& command) {

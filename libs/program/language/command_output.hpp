@@ -17,8 +17,12 @@ namespace trunnion::language {
 struct StraightMove {
   CommandKind kind = CommandKind::line;
   bool chord = false;        ///< as Command::chord
-  std::uint32_t number = 0;  ///< as Command::number of kinds skip and tap
-  double value = 0;          ///< as Command::value of kind tap
+  std::uint32_t number = 0;  ///< as Command::number of kinds skip, tap and thread
+  double value = 0;          ///< as Command::value of kinds tap and thread
+  double lead_change = 0;    ///< as Command::lead_change
+  double start_angle = 0;    ///< as Command::start_angle
+  double spindle_speed = 0;  ///< as Command::spindle_speed
+  bool out = false;          ///< as Command::out
 };
 
 /// Makes commands out of the program's state and numbers them. It keeps the frames that commands were made
@@ -118,6 +122,8 @@ class CommandOutput {
   Fault end_corner(Command& move, AxisValues& start);
   /// The corner that is held has no move behind it: an alarm of check_room().
   bool lose_corner();
+  /// Of a move at feed from `start` to the position: the pieces but for the last.
+  void push_turned_pieces(const AxisValues& start);
   /// The state of a command that is made now; its frame is kept.
   ModalState command_modal();
 

@@ -18,6 +18,8 @@ class CommandQueue {
   bool empty() const { return first_ == size_; }
   /// More than half full: no place to unpack what is held elsewhere.
   bool crowded() const { return size_ > capacity / 2; }
+  /// The pieces of a move, besides all that a block gives.
+  bool has_room_for(std::size_t pieces) const { return size_ + pieces <= capacity / 2; }
   void clear() { first_ = size_ = 0; }
   Command& push() { return commands_[size_++]; }
   const Command& pop() { return commands_[first_++]; }

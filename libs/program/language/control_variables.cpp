@@ -15,8 +15,61 @@ constexpr double highest_message = 9999;
 constexpr std::uint32_t offsets_apart = 20;  // numbers from one work offset to the next
 constexpr std::uint32_t basic_offsets = 6;   // G54 .. G59
 
+using canonical::SpindleValue;
+
+constexpr double largest_added_angle = 360;        // deg, of EC
+constexpr std::uint32_t spindle_variables = 4801;  // of the first value; those of the next are 10 behind
+constexpr std::uint32_t values_apart = 10;
+constexpr std::uint32_t num_spindles = 4;       // B1 to B4
+constexpr std::uint32_t speed_control = 91024;  // E91024, of B1
+constexpr double parts_of_turn = 65536;         // unit of E90310 and E95224
+constexpr double steps_of_turn = 100000;        // unit of E90100
+
+constexpr std::array spindle_names = {"spindle 1", "spindle 2", "spindle 3", "spindle 4",
+                                      "spindle 5", "spindle 6", "spindle 7", "spindle 8"};
+
+/// External parameters that the drive knows, first to first + 3.
+struct LiveParameter {
+  std::uint32_t first;
+  SpindleValue value;
+};
+constexpr std::array live_parameters = {
+    LiveParameter{90100, SpindleValue::angle},        LiveParameter{90124, SpindleValue::positioned},
+    LiveParameter{90200, SpindleValue::reference},    LiveParameter{91124, SpindleValue::homed},
+    LiveParameter{93524, SpindleValue::synchronized}, LiveParameter{94124, SpindleValue::master},
+    LiveParameter{95224, SpindleValue::error},
+};
+
+bool of_spindles(std::uint32_t number, std::uint32_t first) {
+  return number >= first && number - first < num_spindles;
+}
+
+/// A value of a spindle in the unit of its external parameter.
+double external_unit(SpindleValue value, double result) {
+  switch (value) {
+    case SpindleValue::homed:
+      return 1 - result;
+    case SpindleValue::master:
+      return result == 0 ? -1 : canonical::master_address + result - 1;
+    case SpindleValue::error:
+      return std::round(result * parts_of_turn / 360);
+    case SpindleValue::angle:
+      return std::floor(result * steps_of_turn / 360);
+    case SpindleValue::reference:
+    case SpindleValue::synchronized:
+    case SpindleValue::positioned:
+      break;
+  }
+  return result;
+}
+
 bool is_work_offset(VariableKind kind) {
   return kind == VariableKind::work_offset || kind == VariableKind::extended_work_offset;
+}
+
+bool is_spindle_order(VariableKind kind) {
+  return kind == VariableKind::spindle || kind == VariableKind::spindle_integral ||
+         kind == VariableKind::spindle_angle;
 }
 
 std::uint8_t work_offset_index(VariableKind kind, std::uint32_t index) {
@@ -47,7 +100,92 @@ void ControlVariables::start() {
   program_number_ = 0;
   modal_macro_ = needs_answer_ = false;
   answer_ = 0;
-  request_.reset();
+  request_count_ = programmed_count_ = 0;
+}
+
+void ControlVariables::give_value(double value) {
+  needs_value_ = false;
+  if (values_ < value_.size()) value_[values_++] = value;
+}
+
+// In the order in which the line reads them: it is the same each time.
+AlarmNumber ControlVariables::spindle_value(SpindleValue value, std::uint32_t spindle, double& result) const {
+  if (values_read_ < values_) {
+    result = value_[values_read_++];
+    return AlarmNumber::none;
+  }
+  if (values_ == value_.size()) return AlarmNumber::too_many_codes;
+  wanted_ = canonical::read_number(value, spindle);
+  return value_pending;
+}
+
+AlarmNumber ControlVariables::live_parameter(std::uint32_t number, double& value) const {
+  for (const LiveParameter& live : live_parameters) {
+    if (!of_spindles(number, live.first)) continue;
+    const AlarmNumber alarm = spindle_value(live.value, number - live.first, value);
+    if (alarm == AlarmNumber::none) value = external_unit(live.value, value);
+    return alarm;
+  }
+  return AlarmNumber::num_parameter_unavailable;
+}
+
+// What the program has written is read again, although the machine takes some of it at a reset only.
+AlarmNumber ControlVariables::read_external(std::uint32_t number, double& value) const {
+  const AlarmNumber alarm = live_parameter(number, value);
+  if (alarm != AlarmNumber::num_parameter_unavailable) return alarm;
+  for (std::size_t i = request_count_; i-- > 0;) {
+    if (requests_[i].kind != VariableKind::external || requests_[i].index != number) continue;
+    value = requests_[i].value;
+    return AlarmNumber::none;
+  }
+  for (std::size_t i = 0; i < programmed_count_; ++i) {
+    if (programmed_[i].number != number) continue;
+    value = programmed_[i].value;
+    return AlarmNumber::none;
+  }
+  if (number >= speed_control && number - speed_control < num_spindles) {
+    value = 0;
+    return AlarmNumber::none;
+  }
+  const auto machine = environment_.external_parameter(number);
+  if (!machine) return alarm;
+  value = *machine;
+  return AlarmNumber::none;
+}
+
+// Both have passed their index marks.
+Fault ControlVariables::check_master(std::uint32_t slave, double address) const {
+  if (address == -1) return {};
+  const double master = address - canonical::master_address;
+  if (!(master >= 0 && master < canonical::most_spindles) || master != std::floor(master) || master == slave)
+    return {AlarmNumber::variable_value, 0, "another spindle"};
+  for (const std::uint32_t spindle : {static_cast<std::uint32_t>(master), slave}) {
+    double homed = 0;
+    const AlarmNumber alarm = spindle_value(SpindleValue::homed, spindle, homed);
+    if (alarm != AlarmNumber::none) return {alarm, 0};
+    if (homed != 0) continue;
+    unmarked_ = spindle_names[spindle];
+    return {AlarmNumber::spindle_without_mark, 0};
+  }
+  return {};
+}
+
+Fault ControlVariables::write_external(std::uint32_t number, double value) {
+  if (number == canonical::order_angle) {
+    if (std::abs(value) > largest_added_angle)
+      return {AlarmNumber::value_range, 0, "the angle is -360 to 360 deg"};
+  } else if (of_spindles(number, speed_control)) {
+    return value == 0 ? Fault{} : Fault{AlarmNumber::variable_value, 0, "0: speed control"};
+  } else if (of_spindles(number, canonical::order_master)) {
+    if (const Fault fault = check_master(number - canonical::order_master, value)) return fault;
+  } else if (of_spindles(number, canonical::order_integral)) {
+    if (!environment_.external_parameter(number)) return {AlarmNumber::num_parameter_unavailable, 0};
+  } else if (environment_.external_changes(number, value).count == 0) {
+    return {AlarmNumber::num_parameter_unavailable, 0};
+  }
+  if (request_count_ == requests_.size()) return {AlarmNumber::too_many_codes, 0};
+  requests_[request_count_++] = {VariableKind::external, number, value};
+  return {};
 }
 
 double ControlVariables::in_program_units(std::uint32_t axis, double value) const {
@@ -144,6 +282,14 @@ AlarmNumber ControlVariables::modal(std::uint32_t number, double& result) const 
   return AlarmNumber::none;
 }
 
+AlarmNumber ControlVariables::homed(std::uint32_t axis, double& result) const {
+  result = 1;
+  if (((executor_.homed() >> axis) & 1u) != 0) return AlarmNumber::none;
+  if (!homed_) return AlarmNumber::homed_unknown;
+  result = (*homed_ >> axis) & 1u;
+  return AlarmNumber::none;
+}
+
 AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t index, Value& value) const {
   double result = 0;
   switch (range.kind) {
@@ -179,6 +325,9 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
       if (const AlarmNumber alarm = modal(range.first + index, result); alarm != AlarmNumber::none)
         return alarm;
       break;
+    case VariableKind::homed:
+      if (const AlarmNumber alarm = homed(index, result); alarm != AlarmNumber::none) return alarm;
+      break;
     case VariableKind::block_end:
       result = in_program_units(index, executor_.program_position()[index]);
       break;
@@ -188,6 +337,12 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
     case VariableKind::machine_position:
       result = in_program_units(index, executor_.machine_position()[index]);
       break;
+    case VariableKind::spindle: {
+      const auto which = static_cast<SpindleValue>((range.first - spindle_variables) / values_apart);
+      if (const AlarmNumber alarm = spindle_value(which, index, result); alarm != AlarmNumber::none)
+        return alarm;
+      break;
+    }
     case VariableKind::skip_position:
       result = in_program_units(index, skip_position_[index]);
       break;
@@ -222,6 +377,10 @@ AlarmNumber ControlVariables::write(const VariableRange& range, std::uint32_t in
     case VariableKind::time_hours:
       hours_zero_ = time_.hours - value.number;
       return AlarmNumber::none;
+    case VariableKind::spindle:
+    case VariableKind::spindle_integral:
+    case VariableKind::spindle_angle:
+      return order(range, index, nearly_whole(value.number));
     default:
       return ask(range, index, value.number);
   }
@@ -233,28 +392,90 @@ AlarmNumber ControlVariables::ask(const VariableRange& range, std::uint32_t inde
   if (!(value >= lowest && value <= (message ? highest_message : largest_number)))
     return AlarmNumber::variable_value;
   if (is_work_offset(range.kind) && index % offsets_apart >= axis_count) return AlarmNumber::variable_unknown;
-  request_ = Request{range.kind, index, value};
+  if (request_count_ == requests_.size()) return AlarmNumber::too_many_codes;
+  requests_[request_count_++] = {range.kind, index, value};
+  return AlarmNumber::none;
+}
+
+// As the external parameters of the NUM dialect.
+AlarmNumber ControlVariables::order(const VariableRange& range, std::uint32_t index, double value) {
+  if (request_count_ == requests_.size()) return AlarmNumber::too_many_codes;
+  Request request{range.kind, canonical::order_angle, value};
+  if (range.kind == VariableKind::spindle) {
+    request.index = canonical::order_master + index;
+    request.value = value == 0 ? -1 : canonical::master_address + value - 1;
+    if (const Fault fault = check_master(index, request.value)) return fault.number;
+  } else if (range.kind == VariableKind::spindle_integral) {
+    if (value != 0 && value != 1 && value != 2) return AlarmNumber::variable_value;
+    request.index = canonical::order_integral + index;
+    request.value = value == 2 ? -1 : value;
+  } else if (std::abs(value) > largest_added_angle) {
+    return AlarmNumber::variable_value;
+  }
+  requests_[request_count_++] = request;
   return AlarmNumber::none;
 }
 
 Fault ControlVariables::carry_out(std::uint32_t program, std::uint32_t line, CommandQueue& out) {
-  if (!request_) return {};
-  const Request request = *request_;
-  request_.reset();
-  if (request.kind == VariableKind::message)
-    return executor_.message(static_cast<std::uint32_t>(request.value), program, line, out);
-  if (request.kind == VariableKind::cycle) {
-    const auto fault = executor_.call_cycle(static_cast<std::uint32_t>(request.value), program, line, out);
-    needs_answer_ = !fault;
-    return fault;
+  for (std::size_t i = 0; i < request_count_; ++i) {
+    const Request& request = requests_[i];
+    Fault fault;
+    if (request.kind == VariableKind::external) {
+      fault = carry_out_external(request, program, line, out);
+    } else if (is_spindle_order(request.kind)) {
+      fault = executor_.order_spindle(request.index, request.value, program, line, out);
+    } else if (request.kind == VariableKind::message) {
+      fault = executor_.message(static_cast<std::uint32_t>(request.value), program, line, out);
+    } else if (request.kind == VariableKind::cycle) {
+      fault = executor_.call_cycle(static_cast<std::uint32_t>(request.value), program, line, out);
+      needs_answer_ = !fault;
+    } else if (is_work_offset(request.kind)) {
+      const std::uint32_t axis = request.index % offsets_apart;
+      fault = executor_.write_work_offset(work_offset_index(request.kind, request.index), axis,
+                                          to_machine_units(axis, request.value), program, line, out);
+    } else {
+      fault = executor_.write_tool(table_of(request.kind), static_cast<std::uint16_t>(request.index + 1),
+                                   to_machine_units(X, request.value), program, line, out);
+    }
+    if (fault) {
+      request_count_ = 0;
+      return fault;
+    }
   }
-  if (is_work_offset(request.kind)) {
-    const std::uint32_t axis = request.index % offsets_apart;
-    return executor_.write_work_offset(work_offset_index(request.kind, request.index), axis,
-                                       to_machine_units(axis, request.value), program, line, out);
+  request_count_ = 0;
+  return {};
+}
+
+// The integral action is an order for the PLC, and its time a parameter: written when the program gives
+// another one than before.
+Fault ControlVariables::carry_out_external(const Request& request, std::uint32_t program, std::uint32_t line,
+                                           CommandQueue& out) {
+  const bool integral = of_spindles(request.index, canonical::order_integral);
+  const bool of_plc = integral || request.index == canonical::order_angle ||
+                      of_spindles(request.index, canonical::order_master);
+  Programmed* before = nullptr;
+  for (std::size_t i = 0; i < programmed_count_; ++i)
+    if (programmed_[i].number == request.index) before = &programmed_[i];
+  ParameterChanges changes;
+  const bool same_time = before != nullptr && std::abs(before->value) == std::abs(request.value);
+  if (!integral)
+    changes = environment_.external_changes(request.index, request.value);
+  else if (request.value != 0 && !same_time)
+    changes = environment_.external_changes(request.index, std::abs(request.value));
+  for (std::size_t i = 0; i < changes.count; ++i) {
+    if (const Fault fault =
+            executor_.write_parameter(changes.list[i].number, changes.list[i].value, program, line, out))
+      return fault;
   }
-  return executor_.write_tool(table_of(request.kind), static_cast<std::uint16_t>(request.index + 1),
-                              to_machine_units(X, request.value), program, line, out);
+  if (of_plc) {
+    if (const Fault fault = executor_.order_spindle(request.index, request.value, program, line, out))
+      return fault;
+  }
+  if (before != nullptr)
+    before->value = request.value;
+  else if (programmed_count_ < programmed_.size())
+    programmed_[programmed_count_++] = {request.index, request.value};
+  return {};
 }
 
 }  // namespace trunnion::language

@@ -2,8 +2,10 @@
 // System variables: the state of the control as a program sees it.
 #pragma once
 
+#include <array>
 #include <optional>
 
+#include "canonical/spindle_value.hpp"
 #include "language/block_executor.hpp"
 #include "language/environment.hpp"
 #include "language/variables.hpp"
@@ -18,7 +20,7 @@ struct ControlTime {
   std::uint32_t time_of_day = 0;  ///< #3012, 235959
 };
 
-/// Reads #2001 and above from the executor and the machine's tables. Lengths are in the units of G20 or G21,
+/// Reads #1321 and above from the executor and the machine's tables. Lengths are in the units of G20 or G21,
 /// as program words are.
 class ControlVariables final : public SystemVariables {
  public:
@@ -31,25 +33,50 @@ class ControlVariables final : public SystemVariables {
   void set_program_number(std::uint32_t number) { program_number_ = number; }
   /// Where G31 stopped, workpiece, mm and degrees.
   void set_skip_position(const AxisValues& position) { skip_position_ = position; }
+  /// As Interpreter::set_homed().
+  void set_homed(std::optional<std::uint16_t> axes) { homed_ = axes; }
   void set_modal_macro(bool active) { modal_macro_ = active; }
   /// A cycle was called (#3100) and not answered yet.
   bool needs_answer() const { return needs_answer_; }
   /// What #3100 reads from now on.
   void answer(double value) { answer_ = value, needs_answer_ = false; }
   /// A text begins: an answer that an earlier one needed will not come.
-  void forget_call() { needs_answer_ = false; }
+  void forget_call() {
+    needs_answer_ = needs_value_ = false;
+    values_ = 0;
+  }
+
+  /// A line is read, for the first time or with the values that it has asked for.
+  void begin_line() { values_read_ = request_count_ = 0; }
+  /// It was carried out, or has an alarm.
+  void end_line() { values_ = 0; }
+  /// Reading it has ended with value_pending: Command::number of the value it needs.
+  std::uint32_t wanted() const { return wanted_; }
+  void await_value() { needs_value_ = true; }
+  bool needs_value() const { return needs_value_; }
+  /// Of the newest alarm spindle_without_mark: which spindle.
+  const char* unmarked() const { return unmarked_; }
+  void give_value(double value);
 
   AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const override;
   AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) override;
+  AlarmNumber read_external(std::uint32_t number, double& value) const override;
+  Fault write_external(std::uint32_t number, double value) override;
 
-  /// Carries out what writing a variable asked for since the last time: a message, a change of a table.
+  /// Carries out what writing variables asked for since the last time: a message, a change of a table, an
+  /// order for a spindle.
   Fault carry_out(std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
  private:
   AlarmNumber modal(std::uint32_t number, double& result) const;
+  AlarmNumber homed(std::uint32_t axis, double& result) const;
   double in_program_units(std::uint32_t axis, double value) const;
   double to_machine_units(std::uint32_t axis, double value) const;
   AlarmNumber ask(const VariableRange& range, std::uint32_t index, double value);
+  AlarmNumber order(const VariableRange& range, std::uint32_t index, double value);
+  AlarmNumber spindle_value(canonical::SpindleValue value, std::uint32_t spindle, double& result) const;
+  AlarmNumber live_parameter(std::uint32_t number, double& value) const;
+  Fault check_master(std::uint32_t slave, double address) const;
 
   const Environment& environment_;
   BlockExecutor& executor_;
@@ -61,12 +88,31 @@ class ControlVariables final : public SystemVariables {
   bool modal_macro_ = false, needs_answer_ = false;
   double answer_ = 0;  // to the newest call of a cycle
   AxisValues skip_position_{};
+  std::optional<std::uint16_t> homed_ = 0x1ff;  // at the start, bit a for Axis a
   struct Request {
     VariableKind kind = VariableKind::message;
     std::uint32_t index = 0;
     double value = 0;
   };
-  std::optional<Request> request_;
+  Fault carry_out_external(const Request& request, std::uint32_t program, std::uint32_t line,
+                           CommandQueue& out);
+  static constexpr std::size_t most_requests = 8;  // in a line
+  std::array<Request, most_requests> requests_;
+  std::size_t request_count_ = 0;
+  static constexpr std::size_t most_values = 16;  // that a line asks for
+  std::array<double, most_values> value_{};
+  std::size_t values_ = 0;               // known
+  mutable std::size_t values_read_ = 0;  // in this reading of the line
+  mutable std::uint32_t wanted_ = 0;
+  mutable const char* unmarked_ = "";
+  bool needs_value_ = false;
+  // External parameters as the program has written them: as many as there are.
+  struct Programmed {
+    std::uint32_t number = 0;
+    double value = 0;
+  };
+  std::array<Programmed, 32> programmed_{};
+  std::size_t programmed_count_ = 0;
 };
 
 }  // namespace trunnion::language

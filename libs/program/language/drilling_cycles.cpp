@@ -51,6 +51,9 @@ Fault DrillingCycles::read_repeats(std::uint32_t& repeats) {
   if (repeats_by_k && words_.has('L')) return {AlarmNumber::cycle_repeats, words_.offset('L')};
   for (const char letter : {'K', 'L'}) {
     if (!words_.has(letter) || words_.used(letter)) continue;
+    // On other controls K is the lead.
+    if (is_tapping(state_.modal.cycle) && words_.value(letter) != std::floor(words_.value(letter)))
+      return {AlarmNumber::not_an_integer, words_.offset(letter), "K and L are repetitions, the lead is F"};
     if (const Fault fault = words_.whole_number(letter, 0, most_holes, repeats)) return fault;
   }
   return {};

@@ -2,6 +2,8 @@
 // What the interpreter has to know of the machine and its tables.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -66,7 +68,23 @@ struct TravelBreach {
   double position = 0;
 };
 
+/// How programs are written (parameter 04c959).
+enum class ProgramDialect : std::uint8_t { iso, num };
+
+/// Parameters of the machine and what they become.
+struct ParameterChanges {
+  struct Change {
+    std::uint32_t number = 0;
+    double value = 0;
+  };
+  std::array<Change, 2> list{};
+  std::size_t count = 0;
+};
+
 inline constexpr std::uint8_t work_offset_count = 54;
+
+/// M codes whose block may give an angle by R or P; -1 = none.
+using AngleMCodes = std::array<std::int16_t, 4>;
 
 /// Everything a program's meaning depends on besides its text. The answers must not change between start()
 /// and the end of the program, so that interpreting it again up to a command gives that command again.
@@ -76,6 +94,20 @@ class Environment {
   /// Machine coordinates of the zero of work offset `index`: 0 = G54 .. 5 = G59, 6 = G54.1 P1 .. 53 = G54.1
   /// P48; mm and degrees.
   virtual AxisValues work_offset(std::uint8_t index) const = 0;
+  /// Of every program and every line of manual data input of the channel.
+  virtual ProgramDialect program_dialect() const { return ProgramDialect::iso; }
+  /// External parameter `number` of the NUM dialect, in the unit of its row in num_parameters.hpp; nothing
+  /// when the machine does not have it.
+  virtual std::optional<double> external_parameter(std::uint32_t number) const {
+    static_cast<void>(number);
+    return std::nullopt;
+  }
+  /// What writing it changes; nothing when the machine does not have it.
+  virtual ParameterChanges external_changes(std::uint32_t number, double value) const {
+    static_cast<void>(number);
+    static_cast<void>(value);
+    return {};
+  }
   /// Tool length of table entry `h` (from 1) in mm, or nothing when there is no such entry.
   virtual std::optional<double> tool_length(std::uint16_t h) const = 0;
   /// The whole entry `number` of the tool table, from 1, or nothing when there is none.
@@ -117,6 +149,8 @@ class Environment {
   virtual double curve_tolerance() const { return 0.005; }
   /// What the machine's logic carries out; null when no machine is known and every M code may stand.
   virtual const MFunctions* m_functions() const { return nullptr; }
+  /// Parameters 010920 .. 010923.
+  virtual AngleMCodes angle_m_codes() const { return {19, -1, -1, -1}; }
   /// What a decimal point in the P of a dwell means (parameter 040918).
   virtual DwellPoint dwell_point() const { return DwellPoint::refused; }
   /// F of a move of linear and rotary axes without tool tip control counts both (parameter 040919).
@@ -177,8 +211,16 @@ class Environment {
   /// The axes A B C U V W (bit a for Axis a) that are a spindle in position mode (axis number -2 in
   /// parameters 04c004..04c009): those that G74 J and G84 J may name.
   virtual std::uint16_t spindle_axes() const { return 0; }
-  /// Highest speed of the spindle that S commands in 1/min (parameter 10a948); 0 = no limit.
+  /// Highest speed of the spindle that S commands in 1/min (parameter 10a948, or that of its highest gear);
+  /// 0 = no limit.
   virtual double highest_spindle_speed() const { return 0; }
+  /// The parameter that limits it.
+  virtual const char* highest_speed_parameter() const { return "10a948"; }
+  /// Highest speed of a linear axis at feed in mm/min; 0 = no limit.
+  virtual double highest_feed(std::size_t axis) const {
+    static_cast<void>(axis);
+    return 0;
+  }
   /// Largest difference of an arc's radii at its start and its end in mm (parameter 000011, default 0.1).
   virtual double radius_deviation() const = 0;
   /// The text of a subprogram that is not in the calling text, or nullptr. `name` is O and at least four

@@ -3,22 +3,34 @@
 
 #include <string_view>
 
+#include "language/iso_dialect.hpp"
+#include "language/num_dialect.hpp"
+
 namespace trunnion::language {
 namespace {
 
 /// Lines read in one call of next() before it gives the thread back.
 constexpr int lines_per_call = 1000;
 
-}  // namespace
-
-const Dialect& Interpreter::iso_dialect() {
-  static const IsoDialect dialect;
-  return dialect;
+/// Makes the end of the program (M2) that of the subprogram (M99).
+void return_at_end(Block& block) {
+  for (std::size_t i = 0; i < block.m_count; ++i)
+    if (block.m[i].value == 2) block.m[i].value = 99;
 }
 
-Interpreter::Interpreter(Environment& environment, InterpreterOptions options, const Dialect& dialect)
+}  // namespace
+
+const Dialect& Interpreter::dialect_of(ProgramDialect name) {
+  static const IsoDialect iso;
+  static const NumDialect num;
+  if (name == ProgramDialect::num) return num;
+  return iso;
+}
+
+Interpreter::Interpreter(Environment& environment, InterpreterOptions options, const Dialect* dialect)
     : environment_(environment),
-      dialect_(dialect),
+      chosen_(dialect),
+      dialect_(dialect != nullptr ? dialect : &dialect_of(ProgramDialect::iso)),
       options_(options),
       executor_(environment),
       control_(environment, executor_),
@@ -26,6 +38,8 @@ Interpreter::Interpreter(Environment& environment, InterpreterOptions options, c
 
 void Interpreter::start(TextSource& text, const AxisValues& position, const ModalState& initial,
                         const VariableStore& variables, Beginning beginning) {
+  dialect_ = chosen_ != nullptr ? chosen_ : &dialect_of(environment_.program_dialect());
+  rules_ = dialect_->rules();
   executor_.start(position, initial, beginning);
   if (beginning == Beginning::program) {
     control_.start();
@@ -34,7 +48,8 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   control_.forget_call();
   variables_.start(variables);
   control_.set_skip_position(variables_.skip_position());
-  for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
+  for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i)
+    cycle_m_codes_[i] = rules_.cycle_m_codes ? environment_.cycle_m_code(i) : std::uint16_t{0};
   queue_.clear();
   alarm_ = Alarm{};
   depth_ = 0;
@@ -62,6 +77,7 @@ Step Interpreter::next(Command& command) {
     }
     if (executor_.needs_position()) return Step::position;
     if (control_.needs_answer()) return Step::answer;
+    if (control_.needs_value()) return Step::value;
     if (state_ == State::done) return Step::end;
     if (state_ == State::failed) return Step::alarm;
     if (lines == lines_per_call) return Step::working;
@@ -78,9 +94,9 @@ Step Interpreter::next(Command& command) {
   return Step::command;
 }
 
-// Not by a call, nor behind one.
+// Not by a call, nor behind one; nor to the begin of a line that waits for the value of a spindle.
 bool Interpreter::jumped_back(std::uint64_t from, std::size_t depth) const {
-  if (state_ != State::running || executor_.busy() || depth_ > depth) return false;
+  if (state_ != State::running || executor_.busy() || control_.needs_value() || depth_ > depth) return false;
   const auto offset = reader_.position().offset;
   return depth_ < depth ? offset != levels_[depth_].resume.offset : offset <= from;
 }
@@ -112,14 +128,28 @@ Alarm Interpreter::located(const Fault& fault, std::string_view line) {
     return make_alarm({fault.number, 0}, {}, levels_[depth_].program, executor_.interference().line,
                       executor_.fault_detail(fault.number));
   }
-  Alarm alarm = make_alarm(fault, line, levels_[depth_].program, line_, executor_.fault_detail(fault.number));
+  const std::string_view detail = fault.number == AlarmNumber::spindle_without_mark
+                                      ? std::string_view(control_.unmarked())
+                                      : executor_.fault_detail(fault.number);
+  Alarm alarm = make_alarm(fault, line, levels_[depth_].program, line_, detail);
   alarm.calls = static_cast<std::uint8_t>(depth_);
   for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {levels_[i].program, levels_[i + 1].call_line};
   return alarm;
 }
 
 Interpreter::State Interpreter::fail(const Fault& fault, std::string_view line) {
+  if (fault.number == value_pending) return ask_value(line);
   return fail(located(fault, line));
+}
+
+// The line has had no effect yet but for what it has stored: that is taken back, and the line is read again.
+Interpreter::State Interpreter::ask_value(std::string_view line) {
+  if (!variables_.take_back()) return fail({AlarmNumber::too_many_codes, 0}, line);
+  if (const Fault fault = executor_.read_value(control_.wanted(), levels_[depth_].program, line_, queue_))
+    return fail(fault, line);
+  control_.await_value();
+  reader_.seek(*levels_[depth_].source, position_);
+  return State::running;
 }
 
 Interpreter::State Interpreter::fail(const Alarm& alarm) {
@@ -146,8 +176,16 @@ Interpreter::State Interpreter::run_line(Step& step) {
 }
 
 Interpreter::State Interpreter::execute(std::string_view line) {
+  variables_.begin_line();
+  control_.begin_line();
+  const State state = execute_block(line);
+  if (!control_.needs_value()) control_.end_line();
+  return state;
+}
+
+Interpreter::State Interpreter::execute_block(std::string_view line) {
   CallLevel& level = levels_[depth_];
-  if (const Fault fault = dialect_.read_block(line, options_.block_skip, variables_, block_))
+  if (const Fault fault = dialect_->read_block(line, options_.block_skip, variables_, block_))
     return fail(fault, line);
   if (block_.skipped) return State::running;
   if (block_.head != Head::none && level.started) return end_of_text();
@@ -166,7 +204,11 @@ Interpreter::State Interpreter::execute(std::string_view line) {
   return execute_words(line);
 }
 
+Fault Interpreter::carry_out_requests() { return control_.carry_out(levels_[depth_].program, line_, queue_); }
+
 Interpreter::State Interpreter::execute_words(std::string_view line) {
+  if (const Fault fault = carry_out_requests()) return fail(fault, line);
+  if (rules_.text_ends_subprograms && depth_ != 0) return_at_end(block_);
   Call call;
   if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);
   const auto* const modal = modal_calls_.active();
@@ -203,7 +245,7 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
 }
 
 void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {
-  if (executor_.needs_position()) {
+  if (executor_.needs_position() && !executor_.homing()) {
     executor_.set_position(touched);
     variables_.set_skip_position(executor_.workpiece_position());
     control_.set_skip_position(variables_.skip_position());
@@ -228,6 +270,7 @@ Interpreter::State Interpreter::end_of_text() {
     line_ = open.top().begin.line;
     return fail({AlarmNumber::begin_without_end, 0}, {});
   }
+  if (depth_ != 0 && rules_.text_ends_subprograms) return return_from_subprogram({}, {});
   if (depth_ != 0) return fail({AlarmNumber::subprogram_without_end, 0}, {});
   if (const Fault fault = executor_.end_program(0, levels_[0].program, line_, queue_)) return fail(fault, {});
   return State::done;

@@ -4,11 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "language/block_executor.hpp"
 #include "language/control_variables.hpp"
 #include "language/endless_loop.hpp"
-#include "language/iso_dialect.hpp"
 #include "language/jump_cache.hpp"
 #include "language/line_reader.hpp"
 #include "language/macro_call.hpp"
@@ -23,9 +23,10 @@ enum class Step : std::uint8_t {
   pending,   ///< the text source has to deliver first: call again later
   end,       ///< the end command was taken before
   alarm,     ///< see alarm(); stays so until start()
-  position,  ///< the command before was a skip move: set_position() must report where it ended, for what the
-             ///< program does next depends on it
+  position,  ///< a command before was a skip move or a search for references: set_position() must report
+             ///< where it ended, for what the program does next depends on it
   answer,    ///< the command before calls a cycle of another service: answer() must report what it has said
+  value,     ///< the command before reads a value of a spindle: give_value() must report it
   line,      ///< the line of stop_before_line() would be read next; it will be, when next() is called again
 };
 
@@ -47,12 +48,14 @@ inline constexpr VariableStore no_variables{};
 /// O31234; G1007 calls %1007 of the text "USERDEF.CYC". A main program ends with M2, M30, its text, a lone %
 /// or the head of the next program; M99 there starts it again from its top. A subprogram must end with M99.
 /// GOTO and M99 P look for N forward, then from the top of the program. While G66 is active, each block that
-/// moves, but for those of the called macro itself, is followed by the call.
+/// moves, but for those of the called macro itself, is followed by the call. What the NUM dialect has instead
+/// is in num_dialect.hpp.
 class Interpreter {
  public:
-  /// `environment` and `dialect` must outlive the interpreter.
+  /// `environment` and `dialect` must outlive the interpreter. Without a dialect the environment names that
+  /// of each text that is started; subprograms are written in it, too.
   explicit Interpreter(Environment& environment, InterpreterOptions options = {},
-                       const Dialect& dialect = iso_dialect());
+                       const Dialect* dialect = nullptr);
   Interpreter(const Interpreter&) = delete;
   Interpreter& operator=(const Interpreter&) = delete;
 
@@ -85,12 +88,22 @@ class Interpreter {
   /// after a move that ended elsewhere than commanded. Only sensible when next() has nothing prepared: after
   /// Step::end, or the command of a block's end.
   void set_position(const AxisValues& position) { set_position(position, position); }
-  /// The same behind a skip move; `touched` is where its input found the axes (#5061).
+  /// The same behind a skip move; `touched` is where its input found the axes (#5061). A search for
+  /// references (G28.2) leaves #5061.
   void set_position(const AxisValues& position, const AxisValues& touched);
+
+  /// Step::position is that of a search for references.
+  bool homing() const { return executor_.homing(); }
+  /// The axes that had their reference when the text began, bit a for Axis a; nothing: it is not known any
+  /// more, and a program that asks (#1321) has an alarm. All before the first call.
+  void set_homed(std::optional<std::uint16_t> axes) { control_.set_homed(axes); }
 
   /// The answer of a called cycle, which #3100 reads. Programs that are called from now on are looked for
   /// again: the service may have stored another text.
   void answer(double value);
+
+  /// The value that a command of kind read has asked for. The line that needs it is read again.
+  void give_value(double value) { control_.give_value(value); }
 
   /// What the variables of time show from now on; before the first call they show zero.
   void set_time(const ControlTime& time) { control_.set_time(time); }
@@ -118,7 +131,7 @@ class Interpreter {
   /// Positions, frames and tables as the program has left them, for system variables.
   const BlockExecutor& executor() const { return executor_; }
 
-  static const Dialect& iso_dialect();
+  static const Dialect& dialect_of(ProgramDialect name);
 
  private:
   struct CallLevel {
@@ -163,7 +176,10 @@ class Interpreter {
 
   State run_line(Step& step);
   State execute(std::string_view line);
+  State execute_block(std::string_view line);
   State execute_words(std::string_view line);
+  State ask_value(std::string_view line);
+  Fault carry_out_requests();
   State go(const Flow& flow, std::string_view line);
   State end_of_text();
   bool jumped_back(std::uint64_t from, std::size_t depth) const;
@@ -176,6 +192,7 @@ class Interpreter {
   State run_statement(std::string_view line);
   State call_cycle(std::string_view line);
   State branch(bool condition, std::string_view line);
+  State execute_rest(std::string_view line);
   State jump(Purpose purpose, std::uint32_t wanted, TextPosition from, const Fault& in_vain,
              std::string_view line);
   State search(Purpose purpose, std::uint32_t wanted, TextPosition from);
@@ -192,10 +209,15 @@ class Interpreter {
   State call(const Call& call, std::string_view line);
   State found(TextSource& source, std::uint32_t program, TextPosition top);
   State enter(const Found& target);
+  /// The axis whose number is in L0: X Y Z U V W A B C.
+  std::optional<std::size_t> homing_axis() const;
+  State home_axis();
   State return_from_subprogram(const Flow& flow, std::string_view line);
 
   Environment& environment_;
-  const Dialect& dialect_;
+  const Dialect* const chosen_;
+  const Dialect* dialect_;
+  DialectRules rules_;
   InterpreterOptions options_;
   BlockExecutor executor_;
   ControlVariables control_;
@@ -214,7 +236,7 @@ class Interpreter {
   std::uint64_t blocks_ = 0, lines_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
-  // A jump that looks for its target, and the alarms if it is not found or not allowed.
+  // A jump or a call that looks for its target, and the alarms if it is not found or not allowed.
   Search search_;
   JumpCache jumps_;
   Alarm not_found_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of Interpreter that calls subprograms, macros and cycles and comes back from them.
+#include <cmath>
+
 #include "language/interpreter.hpp"
 
 namespace trunnion::language {
@@ -51,6 +53,8 @@ Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
       return enter(known);
   }
   not_found_ = located({AlarmNumber::subprogram_missing, call.program_offset}, line);
+  if (call.number == rules_.homing_program)
+    not_allowed_ = located({AlarmNumber::num_homing_axis, call.program_offset}, line);
   search_.purpose = Purpose::program;
   search_.wanted = call.number;
   search_.source = cycle ? environment_.subprogram(ProgramName(cycle_file).view()) : caller;
@@ -83,6 +87,25 @@ Interpreter::State Interpreter::enter(const Found& target) {
   if (level.own_variables) variables_.enter(arguments_);
   if (level.modal) level.modal_above = modal_calls_.enter();
   reader_.seek(*level.source, level.top);
+  return State::running;
+}
+
+std::optional<std::size_t> Interpreter::homing_axis() const {
+  constexpr std::string_view axes = "XYZUVWABC";
+  Value number;
+  if (variables_.read(0, number) != AlarmNumber::none) return std::nullopt;
+  const double value = number.number;
+  if (value != std::floor(value) || value < 0 || value > 8) return std::nullopt;
+  return axis_letters.find(axes[static_cast<std::size_t>(value)]);
+}
+
+Interpreter::State Interpreter::home_axis() {
+  reader_.seek(*levels_[depth_].source, after_call_);
+  line_ = call_line_;
+  const auto axis = homing_axis();
+  if (!axis) return fail(not_allowed_);
+  if (const Fault fault = executor_.home_axis(*axis, levels_[depth_].program, call_line_, queue_))
+    return fail(fault, {});
   return State::running;
 }
 

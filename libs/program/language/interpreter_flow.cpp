@@ -14,7 +14,7 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
     case Statement::none:
       return State::running;
     case Statement::assignment:
-      if (Fault fault = control_.carry_out(level.program, line_, queue_)) {
+      if (Fault fault = carry_out_requests()) {
         fault.offset = block_.at;
         return fail(fault, line);
       }
@@ -37,15 +37,17 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
       else_if_due_ = false;
       if (!due) return jump(Purpose::end, 0, position_, in_vain, line);
       bool condition = false;
-      if (const Fault fault = dialect_.read_condition(line, block_.rest, variables_, condition))
+      if (const Fault fault = dialect_->read_condition(line, block_.rest, variables_, condition)) {
+        else_if_due_ = fault.number == value_pending;
         return fail(fault, line);
+      }
       return branch(condition, line);
     }
     case Statement::else_:
       return jump(Purpose::end, 0, position_, in_vain, line);
     case Statement::begin_while:
     case Statement::begin_do:
-      return block_.condition ? State::running : jump(Purpose::end, 0, position_, in_vain, line);
+      return block_.condition ? execute_rest(line) : jump(Purpose::end, 0, position_, in_vain, line);
     case Statement::end_while:
     case Statement::end_do:
       // The beginning is read again: its condition decides.
@@ -57,8 +59,15 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
 }
 
 Interpreter::State Interpreter::branch(bool condition, std::string_view line) {
-  if (condition) return State::running;
+  if (condition) return execute_rest(line);
   return jump(Purpose::branch, 0, position_, {AlarmNumber::begin_without_end, block_.at}, line);
+}
+
+// What the NUM dialect permits behind THEN and DO.
+Interpreter::State Interpreter::execute_rest(std::string_view line) {
+  if (block_.has_more()) return execute_words(line);
+  if (const Fault fault = carry_out_requests()) return fail(fault, line);
+  return State::running;
 }
 
 Interpreter::State Interpreter::jump(Purpose purpose, std::uint32_t wanted, TextPosition from,
@@ -103,7 +112,7 @@ Interpreter::State Interpreter::search_line(Step& step) {
   const LineReader::Status status = reader_.next(line);
   if (status == LineReader::Status::end) return search_ended();
   if (status != LineReader::Status::line) return report_line_status(status, step);
-  const Outline outline = dialect_.outline(line, options_.block_skip);
+  const Outline outline = dialect_->outline(line, options_.block_skip);
   if (search_.purpose == Purpose::program) {
     if (outline.head != Head::program || outline.program_number != search_.wanted) return State::searching;
     const bool cycle = call_.kind == CallKind::cycle;
@@ -159,6 +168,7 @@ Interpreter::State Interpreter::search_ended() {
   if (search_.purpose == Purpose::program && call_.kind != CallKind::cycle) {
     TextSource* const other = environment_.subprogram(ProgramName(call_.number).view());
     if (other != nullptr) return found(*other, call_.number, {});
+    if (rules_.homing_program != 0 && call_.number == rules_.homing_program) return home_axis();
     // The old form: the last four digits are the program, those before them count.
     constexpr std::uint32_t four_digits = 10000;
     if (!call_.counted && call_.number > four_digits && call_.number % four_digits != 0) {

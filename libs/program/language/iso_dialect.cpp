@@ -5,6 +5,7 @@
 
 #include "language/cycle_signature.hpp"
 #include "language/expression.hpp"
+#include "language/letters.hpp"
 #include "language/scanner.hpp"
 #include "text/utf8.hpp"
 
@@ -124,11 +125,24 @@ class BlockReader {
     return {};
   }
 
+  /// Behind G28.2 and G159 a letter without a number names an axis, as on NUM controls.
+  bool names_axis(char name) {
+    if (!homes_ || (Block::bit(name) & axis_bits) == 0) return false;
+    if (!scanner_.more()) return true;
+    const char next = scanner_.peek();
+    return letter(next) != '\0' || next == ';' || next == '(';
+  }
+
   Fault word(char name) {
     const std::uint16_t at = scanner_.offset();
     scanner_.advance();
     Value value;
-    if (const Fault fault = number(at, name != 'N', value)) return fault;
+    if (names_axis(name)) {
+      value = Value::of(0);
+      point_ = false;
+    } else if (const Fault fault = number(at, name != 'N', value)) {
+      return fault;
+    }
     if (name == 'O') return {AlarmNumber::misplaced_head, at};
     // A word counts even when it is left out because its variable is vacant.
     word_is_read_ = word_is_read_ || name != 'N';
@@ -137,6 +151,7 @@ class BlockReader {
       if (block_.g_count == max_g_codes) return {AlarmNumber::too_many_codes, at};
       block_.g[block_.g_count++] = {value.number, at};
       calls_macro_ = calls_macro_ || value.number == 65 || value.number == 66;
+      homes_ = homes_ || value.number == 28.2 || value.number == 159;
       return {};
     }
     if (name == 'M') {
@@ -356,6 +371,7 @@ class BlockReader {
   Variables& variables_;
   Block& block_;
   bool calls_macro_ = false;
+  bool homes_ = false;  // G28.2 or G159 was read
   bool skip_is_read_ = false;
   bool word_is_read_ = false;
   bool point_ = false;  // the newest number() has a decimal point

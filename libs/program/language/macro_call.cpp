@@ -59,11 +59,15 @@ ProgramName::ProgramName(std::uint32_t program) {
     return;
   }
   std::array<char, 10> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), program).ptr;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), program % program_tenth).ptr;
   const auto count = static_cast<std::size_t>(end - digits.data());
   append("O");
   append(std::string_view("0000").substr(std::min<std::size_t>(count, 4)));
   append({digits.data(), count});
+  if (program < program_tenth) return;
+  const char tenth = static_cast<char>('0' + program / program_tenth % 10);
+  append(".");
+  append({&tenth, 1});
 }
 
 bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call) {

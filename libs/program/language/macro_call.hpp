@@ -15,7 +15,10 @@ namespace trunnion::language {
 /// file of canned cycles.
 inline constexpr std::uint32_t cycle_file = 1000000000;
 
-/// "O" and at least four digits, or "USERDEF.CYC".
+/// What each tenth adds to the number of a program of the NUM dialect: %9990.9 is 900009990.
+inline constexpr std::uint32_t program_tenth = 100000000;
+
+/// "O" and at least four digits, with a point and a digit of the NUM dialect ("O9990.9"), or "USERDEF.CYC".
 class ProgramName {
  public:
   explicit ProgramName(std::uint32_t program);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "canonical/turning_speed.hpp"
 #include "language/arc_geometry.hpp"
 
 namespace trunnion::language {
@@ -30,8 +31,33 @@ Fault ModalCodes::set_feed_mode(std::uint16_t, FeedMode mode) {
   return {};
 }
 
+// A code that gives the axis words a meaning of its own, or a cycle, moves at feed.
+bool ModalCodes::takes_lead() const {
+  const GCodes& g = words_.g();
+  if (g.has(Group::one_block) && g.code(Group::one_block).axis_words == AxisWords::taken) return false;
+  if (g.has(Group::motion))
+    return g.is(Group::motion, 320) || g.is(Group::motion, 330) || g.is(Group::motion, 340);
+  const bool cycle = g.has(Group::cycle) ? g.code(Group::cycle).tenths != 800 : state_.modal.cycle != 80;
+  return !cycle && is_thread(state_.modal.motion);
+}
+
+bool ModalCodes::taps() const {
+  const GCodes& g = words_.g();
+  return g.is(Group::cycle, 840) || g.is(Group::one_block, 849);
+}
+
 Fault ModalCodes::feed_word() {
-  if (!words_.has('F')) return {};
+  const char lead_word = words_.lead_word();
+  const bool has_lead = words_.has(lead_word) && takes_lead();
+  if (has_lead) {
+    words_.use(lead_word);
+    const double lead = words_.value(lead_word);
+    if (!(lead > 0)) return {AlarmNumber::thread_lead_missing, words_.offset(lead_word)};
+    state_.thread_lead = lead * words_.length_scale();
+  } else if (lead_word == 'K' && words_.has('K') && !taps()) {
+    return {AlarmNumber::num_word, words_.offset('K')};
+  }
+  if (!words_.has('F') || (has_lead && lead_word == 'F')) return {};
   words_.use('F');
   const double feed = words_.value('F');
   if (!(feed > 0)) return {AlarmNumber::feed_not_positive, words_.offset('F')};
@@ -50,14 +76,30 @@ Fault ModalCodes::check_spindle_speed(double speed) {
   if (highest == 0 || speed <= highest) return {};
   FaultDetail& detail = context_.detail;
   detail.number = AlarmNumber::spindle_speed_above;
-  std::snprintf(detail.text.data(), detail.text.size(), "at most %.10g 1/min (10a948)", highest);
+  std::snprintf(detail.text.data(), detail.text.size(), "at most %.10g 1/min (%s)", highest,
+                environment_.highest_speed_parameter());
   return {detail.number, words_.offset('S')};
+}
+
+// In whole 1/min, as the PLC has it, and not above the limit.
+double ModalCodes::reached_speed(const ModalState& surface) const {
+  return std::floor(canonical::turning_speed(surface.surface_speed, std::abs(state_.workpiece_position()[X]),
+                                             speed_limit(surface)));
+}
+
+double ModalCodes::speed_limit(const ModalState& modal) const {
+  return canonical::lower_limit(modal.spindle_limit, environment_.highest_spindle_speed());
 }
 
 Fault ModalCodes::spindle_word() {
   ModalState& modal = state_.modal;
+  const ModalState& before = state_.at_block_begin().modal;
   const bool surface = modal.spindle_mode == SpindleMode::surface;
+  const bool changes = modal.spindle_mode != before.spindle_mode;
   const bool limit = words_.g().is(Group::one_block, 920);
+  const bool speed_given = words_.has('S') && !limit;
+  // G97 without S: the spindle keeps the speed it has here.
+  if (changes && !surface && !speed_given) modal.spindle_speed = reached_speed(before);
   if (words_.has('S')) {
     words_.use('S');
     const double speed = words_.value('S');
@@ -71,14 +113,18 @@ Fault ModalCodes::spindle_word() {
       modal.spindle_speed = speed;
     }
   }
-  if (surface && !(modal.surface_speed > 0)) {
-    const bool named = words_.g().has(Group::spindle_mode);
-    return {AlarmNumber::surface_speed_missing,
-            named ? words_.g().offset(Group::spindle_mode) : words_.offset('S')};
+  if (surface) {
+    const auto at = [&] {
+      return words_.g().has(Group::spindle_mode) ? words_.g().offset(Group::spindle_mode)
+                                                 : words_.offset('S');
+    };
+    if (!(modal.surface_speed > 0)) return {AlarmNumber::surface_speed_missing, at()};
+    // At the centre of the spindle its speed would be beyond all measure.
+    if (!(speed_limit(modal) > 0)) return {AlarmNumber::surface_speed_limit, at()};
   }
-  if ((words_.has('S') && !limit) || modal.spindle_mode != state_.at_block_begin().modal.spindle_mode) {
+  const bool limited = surface && modal.spindle_limit != before.spindle_limit;
+  if (speed_given || changes || limited)
     output_.push(CommandKind::spindle_speed).value = surface ? modal.surface_speed : modal.spindle_speed;
-  }
   return {};
 }
 

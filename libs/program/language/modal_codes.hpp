@@ -32,6 +32,14 @@ class ModalCodes : private BlockHandler {
 
  private:
   Fault check_spindle_speed(double speed);
+  /// The block has the lead of a thread, if it has its word.
+  bool takes_lead() const;
+  /// The block has G84 or G84.9.
+  bool taps() const;
+  /// 1/min, of the spindle with the surface speed of a state that has one, at the position.
+  double reached_speed(const ModalState& surface) const;
+  /// 1/min, of the program and the machine with G96; 0 = none.
+  double speed_limit(const ModalState& modal) const;
 };
 
 }  // namespace trunnion::language

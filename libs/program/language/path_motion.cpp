@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/path_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "language/arc_geometry.hpp"
 
@@ -11,6 +13,8 @@ namespace {
 /// A helix lower than this (mm) is a circle.
 constexpr double no_height = 1e-9;
 constexpr std::uint32_t most_turns = 9999;
+/// Of the speed of an axis: it must be able to follow a spindle that turns somewhat faster than S.
+constexpr double thread_share = 0.95;
 
 }  // namespace
 
@@ -18,6 +22,7 @@ Fault PathMotion::move() {
   constexpr std::uint32_t arc_bits = letter_bits("IJKR");
   constexpr std::uint32_t vector_bits = letter_bits("IJK");
   const ModalState& modal = state_.modal;
+  if (is_thread(modal.motion)) return cut_thread();
   const bool arc = modal.motion == 2 || modal.motion == 3;
   const std::uint32_t moving =
       words_.letters() & (axis_bits | (arc ? arc_bits : 0u) | (modal.tool_vector ? vector_bits : 0u));
@@ -59,6 +64,123 @@ Fault PathMotion::move() {
     if (const Fault fault = vectors_.point(*direction, vector_at, target)) return fault;
   }
   return arc ? move_on_arc(made.arc, target) : output_.move_straight({kind}, target);
+}
+
+Fault PathMotion::cut_thread() {
+  if ((words_.letters() & axis_bits) == 0) return {};
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.find_axes(axes)) return fault;
+  words_.use_axes();
+  const std::uint16_t at = words_.offset_of_any(axis_bits);
+  // On NUM controls a block that continues a thread has its end and perhaps its lead, and nothing else.
+  if (words_.lead_word() == 'K' && !words_.g().has(Group::motion)) {
+    if (words_.has_codes()) return {AlarmNumber::num_word, words_.first_offset()};
+    if (words_.shows_message()) return {AlarmNumber::num_word, at};
+    const std::uint32_t others = words_.letters() & ~(axis_bits | letter_bits("KN"));
+    if (others != 0) return {AlarmNumber::num_word, words_.offset_of_any(others)};
+  }
+  if (const Fault fault = check_thread(at)) return fault;
+  StraightMove move{CommandKind::thread};
+  move.value = state_.thread_lead;
+  move.number = words_.thread() == ThreadBlock::chained ? 0 : 1;
+  if (state_.modal.motion == 34) {
+    if (!words_.has('K')) return {AlarmNumber::missing_word, at, needs('K')};
+    move.lead_change = words_.length('K');
+  }
+  if (words_.has('Q')) {
+    words_.use('Q');
+    move.start_angle = words_.value('Q');
+    if (!(move.start_angle >= 0 && move.start_angle < 360))
+      return {AlarmNumber::value_range, words_.offset('Q'), "degrees, from 0 to below 360"};
+  }
+  const AxisValues target = programmed_target(axes);
+  if (words_.has(taught_angle_word)) {
+    if (const Fault fault = resume_thread(target, move.start_angle)) return fault;
+  }
+  if (const Fault fault = check_lead(at, state_.command_from_program(target), move)) return fault;
+  if (words_.thread() == ThreadBlock::alone) output_.stop_exactly_once();
+  return output_.move_straight(move, target);
+}
+
+// On the pitch line the spindle has the taught angle where the axis with the lead is at the taught place.
+Fault PathMotion::resume_thread(const AxisValues& target, double& start_angle) {
+  const AxisValues end = state_.command_from_program(target);
+  AxisValues way{};
+  std::size_t axis = X;
+  for (std::size_t a = 0; a < axis_count; ++a) {
+    if (is_rotary(a)) continue;
+    way[a] = end[a] - state_.position[a];
+    if (std::abs(way[a]) > std::abs(way[axis])) axis = a;
+  }
+  const double farthest = std::abs(way[axis]);
+  const auto leads = [&](std::size_t a) { return farthest - std::abs(way[a]) <= no_distance; };
+  double distance = 0;
+  if (words_.has('J')) {
+    // Of axes that go equally far the one in whose direction J is.
+    for (std::size_t a = 0; a < axis_count; ++a) {
+      if (is_rotary(a) || !leads(a) || (way[a] > 0) != (words_.value('J') > 0)) continue;
+      axis = a;
+      break;
+    }
+    distance = words_.along('J', axis);
+  } else {
+    axis = words_.has(taught_x_word) ? X : Z;
+    const char word = axis == X ? taught_x_word : taught_z_word;
+    if (!leads(axis))
+      return {AlarmNumber::num_thread_data, words_.offset(word),
+              axis == X ? "X does not go farthest" : "Z does not go farthest"};
+    distance = words_.along(word, axis) - state_.program_position[axis];
+  }
+  words_.use(taught_angle_word);
+  const bool clockwise = state_.modal.spindle_direction == SpindleDirection::cw;
+  const double taught = words_.value(taught_angle_word);
+  const double turns = (way[axis] > 0 ? distance : -distance) / state_.thread_lead;
+  start_angle = std::fmod((clockwise ? taught : -taught) - 360 * turns, 360.0);
+  if (start_angle < 0) start_angle += 360;
+  if (!(start_angle > 0 && start_angle < 360)) start_angle = 0;
+  return {};
+}
+
+Fault PathMotion::check_thread(std::uint16_t at) const {
+  const ModalState& modal = state_.modal;
+  const char* obstacle = modal.tilt.active                              ? "a tilted plane is active"
+                         : modal.transformation == Transformation::rtcp ? "tool tip control is active"
+                         : output_.compensating()                       ? "cutter compensation is active"
+                         : modal.feed_mode == FeedMode::inverse_time    ? "G93 is active"
+                         : modal.spindle_mode == SpindleMode::surface   ? "G96 is active"
+                                                                        : nullptr;
+  if (obstacle != nullptr) return {AlarmNumber::thread_impossible, at, obstacle};
+  if (!(state_.thread_lead > 0)) return {AlarmNumber::thread_lead_missing, at};
+  const bool turns = modal.spindle_direction != SpindleDirection::stopped && modal.spindle_speed > 0;
+  return turns ? Fault{} : Fault{AlarmNumber::thread_spindle_stopped, at};
+}
+
+// The lead grows evenly with the angle, so its square grows evenly along the thread.
+Fault PathMotion::check_lead(std::uint16_t at, const AxisValues& target, const StraightMove& move) {
+  AxisValues way{};
+  double farthest = 0;
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    way[axis] = std::abs(target[axis] - state_.position[axis]);
+    if (is_rotary(axis) && way[axis] > no_distance)
+      return {AlarmNumber::thread_impossible, at, "a rotary axis moves"};
+    if (!is_rotary(axis)) farthest = std::max(farthest, way[axis]);
+  }
+  if (!(farthest > no_distance)) return {};
+  const double square = move.value * move.value + 2 * move.lead_change * farthest;
+  if (!(square > 0)) return {AlarmNumber::thread_lead_change, at};
+  const double lead = std::max(move.value, std::sqrt(square));
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    if (is_rotary(axis)) continue;
+    const double feed = lead * state_.modal.spindle_speed * (way[axis] / farthest);
+    const double highest = thread_share * environment_.highest_feed(axis);
+    if (highest == 0 || feed <= highest) continue;
+    FaultDetail& detail = context_.detail;
+    detail.number = AlarmNumber::thread_speed;
+    std::snprintf(detail.text.data(), detail.text.size(), "%c %.7g mm/min, at most %.7g", axis_letters[axis],
+                  feed, highest);
+    return {detail.number, at};
+  }
+  return {};
 }
 
 // In a rapid and with a tool vector the words have no meaning, which BlockWords reports.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves by axis words: rapid, straight lines, arcs and helices.
+// Moves by axis words: rapid, straight lines, arcs, helices and threads.
 #pragma once
 
 #include "language/block_context.hpp"
@@ -17,6 +17,15 @@ class PathMotion : private BlockHandler {
   Fault move();
 
  private:
+  /// G33 and G34.
+  Fault cut_thread();
+  /// The start angle of a thread to `target` that is in phase with the one that J, EX or EZ and EC describe
+  /// (NUM).
+  Fault resume_thread(const AxisValues& target, double& start_angle);
+  /// What the program has set allows a thread.
+  Fault check_thread(std::uint16_t at) const;
+  /// The lead over the whole way to `target`, in the frame of the commands.
+  Fault check_lead(std::uint16_t at, const AxisValues& target, const StraightMove& move);
   /// In contour coordinates.
   Fault find_arc(const AxisValues& target, std::uint16_t at, Arc& arc);
   Fault find_circle(const AxisValues& target, std::uint16_t& at, Arc& arc);

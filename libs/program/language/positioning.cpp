@@ -36,6 +36,42 @@ Fault Positioning::return_to_reference(std::uint16_t at) {
   return return_to(at, environment_.reference_position());
 }
 
+// The control searches the axes one after the other; what the program does next depends on where they end.
+Fault Positioning::home(std::uint16_t at) {
+  if (const Fault fault = check_machine_coordinates(at)) return fault;
+  double speed = 0;
+  if (words_.has('F')) {
+    words_.use('F');
+    speed = words_.value('F');
+    if (!(speed > 0)) return {AlarmNumber::feed_not_positive, words_.offset('F')};
+  }
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  search_references(axes, speed);
+  return {};
+}
+
+Fault Positioning::home_axis(std::size_t axis) {
+  if (((environment_.axes() >> axis) & 1u) == 0) return {};
+  if (const Fault fault = check_machine_coordinates(0)) return fault;
+  const ModalState& modal = state_.modal;
+  const bool per_minute = modal.feed_mode == FeedMode::per_minute;
+  search_references(1u << axis, per_minute ? modal.feed / words_.length_scale() : 0);
+  return {};
+}
+
+void Positioning::search_references(std::uint32_t axes, double speed) {
+  const AxisValues reference = environment_.reference_position();
+  Command& command = output_.push(CommandKind::home);
+  command.number = axes;
+  command.value = speed;
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) != 0) command.target[axis] = reference[axis];
+  }
+  state_.homed = static_cast<std::uint16_t>(state_.homed | axes);
+  state_.needs_position = state_.homing = true;
+}
+
 Fault Positioning::return_to_numbered_reference(std::uint16_t at) {
   if (const Fault fault = check_machine_coordinates(at)) return fault;
   std::uint32_t number = 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dwell and positioning without the modal motion code: G4, G28 .. G31, G53, G60.
+// Dwell, positioning without the modal motion code and homing: G4, G28 .. G31, G53, G60, G159.
 #pragma once
 
 #include "language/block_context.hpp"
@@ -10,8 +10,11 @@ class Positioning : private BlockHandler {
  public:
   explicit Positioning(BlockContext& context) : BlockHandler(context) {}
 
-  Fault dwell(std::uint16_t at);                         ///< G4
-  Fault return_to_reference(std::uint16_t at);           ///< G28
+  Fault dwell(std::uint16_t at);                ///< G4
+  Fault return_to_reference(std::uint16_t at);  ///< G28
+  Fault home(std::uint16_t at);                 ///< G28.2, G159
+  /// Of one axis, at the feed per minute; of an axis that the channel does not have nothing (NUM 9990.9).
+  Fault home_axis(std::size_t axis);
   Fault return_to_numbered_reference(std::uint16_t at);  ///< G30
   Fault return_from_reference(std::uint16_t at);         ///< G29
   Fault move_until_skip(std::uint16_t at);               ///< G31
@@ -21,6 +24,7 @@ class Positioning : private BlockHandler {
  private:
   Fault check_machine_coordinates(std::uint16_t at) const;
   Fault return_to(std::uint16_t at, const AxisValues& reference);
+  void search_references(std::uint32_t axes, double speed);
 };
 
 }  // namespace trunnion::language

@@ -40,7 +40,10 @@ struct BlockState {
   AxisValues program_position{};  ///< the same as a word would give it
   bool parameter_input = false;   ///< between G10 L50 and G11
   bool swing_due = false;         ///< G68.1..3 was the block before
-  bool needs_position = false;    ///< a skip move (G31) was given out
+  bool needs_position = false;    ///< a skip move (G31) or a search for references (G28.2) was given out
+  bool homing = false;            ///< it is the search
+  std::uint16_t homed = 0;        ///< axes named by the searches so far, bit a for Axis a
+  double thread_lead = 0;         ///< F of G33 and G34, mm per revolution; 0 = none yet
   SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
   std::uint8_t settings_place = 0;
 };

@@ -17,6 +17,7 @@ void Variables::start(const VariableStore& store) {
   store_ = store;
   level_ = 0;
   system_reads_ = 0;
+  written_count_ = 0;
   levels_[0].arguments.clear();
   levels_[0].values.fill({});
 }
@@ -75,17 +76,32 @@ AlarmNumber Variables::read_common(double number, Value& value) const {
 
 AlarmNumber Variables::write(double number, Value value) {
   if (number < local_variables) {
-    levels_[level_].values[static_cast<std::size_t>(number)] = value;
+    store(levels_[level_].values[static_cast<std::size_t>(number)], value);
     return AlarmNumber::none;
   }
   if (const Value* const found = stored(number)) {
-    *const_cast<Value*>(found) = value;  // our own store_, found through a const member
+    store(*const_cast<Value*>(found), value);  // our own store_, found through a const member
     return AlarmNumber::none;
   }
   const VariableRange* const range = system_range(number);
   if (range == nullptr) return AlarmNumber::variable_unknown;
   if (!range->writable) return AlarmNumber::variable_read_only;
   return system_.write(*range, static_cast<std::uint32_t>(number) - range->first, value);
+}
+
+void Variables::store(Value& place, Value value) {
+  if (written_count_ < written_.size()) written_[written_count_] = {&place, place};
+  ++written_count_;
+  place = value;
+}
+
+bool Variables::take_back() {
+  if (written_count_ > written_.size()) return false;
+  while (written_count_ > 0) {
+    const Written& last = written_[--written_count_];
+    *last.place = last.before;
+  }
+  return true;
 }
 
 AlarmNumber Variables::argument(double number, Value& value) const {

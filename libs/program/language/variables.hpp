@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "language/alarms.hpp"
@@ -43,6 +44,11 @@ enum class VariableKind : std::uint8_t {
   extended_work_offset,
   kept,
   user,
+  homed,
+  spindle,
+  spindle_integral,
+  spindle_angle,
+  external,  ///< an external parameter of the NUM dialect: in no range
 };
 
 struct VariableRange {
@@ -58,6 +64,10 @@ inline constexpr std::array variable_ranges = {
                   "local to a macro or cycle; M98 keeps those of its caller"},
     VariableRange{50, 199, VariableKind::common, true, "common to all programs, forgotten at power-off"},
     VariableRange{500, 999, VariableKind::kept, true, "common to all programs, kept"},
+    VariableRange{
+        1321, 1329, VariableKind::homed, false,
+        "1 = the axis had its reference when the program began, or the program has homed it: X Y Z A B C "
+        "U V W"},
     VariableRange{2001, 2200, VariableKind::length_wear, true, "tool length wear of tool 1 to 200, mm"},
     VariableRange{2201, 2400, VariableKind::length, true, "tool length of tool 1 to 200, mm"},
     VariableRange{2401, 2600, VariableKind::radius_wear, true, "tool radius wear of tool 1 to 200, mm"},
@@ -74,6 +84,21 @@ inline constexpr std::array variable_ranges = {
         "writing calls a cycle of another service: 9960 begins it, 0 when its part is done; reads 1 = call "
         "the part O99601, 0 = finished"},
     VariableRange{4001, 4130, VariableKind::modal, false, "modal codes and words of the blocks before"},
+    VariableRange{4801, 4808, VariableKind::spindle, false,
+                  "1 = spindle 1 to 8 has passed its index mark; read at rest"},
+    VariableRange{4811, 4818, VariableKind::spindle, false,
+                  "1 = it is synchronized with its master; at rest"},
+    VariableRange{4821, 4828, VariableKind::spindle, true,
+                  "number of its master, 0 = none; read at rest; writing orders it from the PLC"},
+    VariableRange{4831, 4838, VariableKind::spindle, false, "synchronization error, deg; at rest"},
+    VariableRange{4841, 4848, VariableKind::spindle, false, "speed reference, 1/min, signed; at rest"},
+    VariableRange{4851, 4858, VariableKind::spindle, false, "angle of the encoder, deg; at rest"},
+    VariableRange{4861, 4868, VariableKind::spindle, false,
+                  "1 = its angle is controlled (M19, a path); at rest"},
+    VariableRange{4871, 4878, VariableKind::spindle_integral, true,
+                  "writing orders the integral action of its synchronization: 0 none, 1 active, 2 frozen"},
+    VariableRange{4880, 4880, VariableKind::spindle_angle, true,
+                  "writing orders the angle that is added to that of the master, deg"},
     VariableRange{5001, 5009, VariableKind::block_end, false,
                   "end of the block before, program coordinates, X Y Z A B C U V W"},
     VariableRange{5021, 5029, VariableKind::machine_position, false, "position, machine coordinates"},
@@ -136,7 +161,22 @@ class SystemVariables {
   /// `index` counts from the first of `range`.
   virtual AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const = 0;
   virtual AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) = 0;
+  /// An external parameter of the NUM dialect, by its number.
+  virtual AlarmNumber read_external(std::uint32_t number, double& value) const {
+    static_cast<void>(number);
+    value = 0;
+    return AlarmNumber::num_parameter_unavailable;
+  }
+  /// Orders it to be written; 0 is the angle of a synchronization (EC).
+  virtual Fault write_external(std::uint32_t number, double value) {
+    static_cast<void>(number);
+    static_cast<void>(value);
+    return {AlarmNumber::num_parameter_unavailable, 0};
+  }
 };
+
+/// A value has to be asked for first: no alarm, but the line is read again when it is known.
+inline constexpr auto value_pending = static_cast<AlarmNumber>(1);
 
 /// Everything an expression can name. No allocation.
 class Variables {
@@ -163,6 +203,18 @@ class Variables {
     return read_common(number, value);
   }
   AlarmNumber write(double number, Value value);
+  /// As SystemVariables; counts as a system variable that was read.
+  AlarmNumber read_external(std::uint32_t number, double& value) const {
+    ++system_reads_;
+    return system_.read_external(number, value);
+  }
+  Fault write_external(std::uint32_t number, double value) { return system_.write_external(number, value); }
+
+  /// What is stored from now on can be taken back.
+  void begin_line() { written_count_ = 0; }
+  /// Takes it back; false when it was more than most_taken_back.
+  bool take_back();
+  static constexpr std::size_t most_taken_back = 32;
 
   /// AR[#n]: 0 when the call did not give local variable n, else 90 or 91 as G90 or G91 was active then.
   AlarmNumber argument(double number, Value& value) const;
@@ -183,7 +235,12 @@ class Variables {
     std::array<Value, local_variables> values{};
     Arguments arguments;
   };
+  struct Written {
+    Value* place = nullptr;
+    Value before;
+  };
   AlarmNumber read_common(double number, Value& value) const;
+  void store(Value& place, Value value);
   /// Where a variable of the store is, or nullptr.
   const Value* stored(double number) const;
 
@@ -192,6 +249,8 @@ class Variables {
   std::array<Level, max_levels> levels_{};
   std::size_t level_ = 0;
   mutable std::uint64_t system_reads_ = 0;
+  std::array<Written, most_taken_back> written_{};  // in this line
+  std::size_t written_count_ = 0;
 };
 
 }  // namespace trunnion::language

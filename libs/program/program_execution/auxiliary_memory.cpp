@@ -11,6 +11,8 @@ void AuxiliaryMemory::pass(const language::Command& command) {
   if (command.kind == CommandKind::spindle_speed) {
     has_speed_ = true;
     speed_ = command.value;
+    surface_ = command.modal.spindle_mode == language::SpindleMode::surface;
+    limit_ = surface_ ? command.modal.spindle_limit : 0;
     return;
   }
   if (command.kind != CommandKind::auxiliary) return;
@@ -31,6 +33,8 @@ void AuxiliaryMemory::pass(const language::Command& command) {
   if (code.group == language::MGroup::spindle) {
     has_spindle_ = true;
     spindle_ = code.number;
+    angle_ = command.value;
+    has_angle_ = command.has_value;
   } else if (code.group != language::MGroup::flow && code.action == language::MAction::auxiliary) {
     ++not_repeated_;
   }
@@ -38,12 +42,13 @@ void AuxiliaryMemory::pass(const language::Command& command) {
 
 std::vector<AuxiliaryFunction> AuxiliaryMemory::functions(bool speed, bool spindle, bool coolant) const {
   std::vector<AuxiliaryFunction> list;
-  if (speed && has_speed_) list.push_back({AuxiliaryKind::S, 0, speed_});
-  if (spindle && has_spindle_) list.push_back({AuxiliaryKind::M, spindle_, 0});
+  if (speed && has_speed_) list.push_back({AuxiliaryKind::S, 0, speed_, false, surface_, limit_, 0});
+  if (spindle && has_spindle_)
+    list.push_back({AuxiliaryKind::M, spindle_, has_angle_ ? angle_ : 0, has_angle_});
   if (coolant && has_coolant_) {
-    if (mist_) list.push_back({AuxiliaryKind::M, 7, 0});
-    if (flood_) list.push_back({AuxiliaryKind::M, 8, 0});
-    if (!mist_ && !flood_) list.push_back({AuxiliaryKind::M, 9, 0});
+    if (mist_) list.push_back({AuxiliaryKind::M, 7, 0, false});
+    if (flood_) list.push_back({AuxiliaryKind::M, 8, 0, false});
+    if (!mist_ && !flood_) list.push_back({AuxiliaryKind::M, 9, 0, false});
   }
   return list;
 }
@@ -55,9 +60,9 @@ std::vector<AuxiliaryFunction> AuxiliaryMemory::functions_changed_by(const Auxil
   const auto list = functions(other.has_speed_, other.has_spindle_, other.has_coolant_);
   std::vector<AuxiliaryFunction> undo;
   undo.reserve(list.size() + 2);
-  if (other.has_spindle_ && !has_spindle_) undo.push_back({AuxiliaryKind::M, 5, 0});
+  if (other.has_spindle_ && !has_spindle_) undo.push_back({AuxiliaryKind::M, 5, 0, false});
   if (other.has_coolant_ && (!has_coolant_ || (other.mist_ && !mist_) || (other.flood_ && !flood_)))
-    undo.push_back({AuxiliaryKind::M, 9, 0});
+    undo.push_back({AuxiliaryKind::M, 9, 0, false});
   undo.insert(undo.end(), list.begin(), list.end());
   return undo;
 }

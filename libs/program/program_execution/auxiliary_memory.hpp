@@ -12,11 +12,15 @@ namespace trunnion::program_execution {
 
 using idl::channel::AuxiliaryKind;
 
-/// One M, S or T of the handshake with the PLC.
+/// One M, S, T or order for a spindle (E) of the handshake with the PLC.
 struct AuxiliaryFunction {
   AuxiliaryKind kind = AuxiliaryKind::M;
-  std::uint32_t code = 0;  ///< M or T number
-  double value = 0;        ///< S in 1/min, or m/min with G96
+  std::uint32_t code = 0;  ///< M or T number; of E as Command::number of kind spindle_order
+  double value = 0;        ///< S in 1/min, or m/min with G96; with has_value the angle of M19 in deg
+  bool has_value = false;  ///< of M and E
+  bool surface = false;    ///< of S: `value` is a surface speed (G96)
+  double limit = 0;        ///< 1/min, of a surface speed; 0 = none
+  double radius = 0;       ///< mm, of a surface speed: the axes are as far from the centre of the spindle
 };
 
 /// Takes every command of a program in its sequence and keeps the state they add up to. M codes of no group
@@ -26,8 +30,9 @@ class AuxiliaryMemory {
   void clear() { *this = {}; }
   void pass(const language::Command& command);
 
-  /// The functions that bring the machine to this state, in the sequence in which they must be given: speed,
-  /// spindle, mist coolant, flood coolant, or coolant off. What no command has changed is left as it is.
+  /// A surface speed has the limit of the program and no radius. The functions that bring the machine to this
+  /// state, in the sequence in which they must be given: speed, spindle, mist coolant, flood coolant, or
+  /// coolant off. What no command has changed is left as it is.
   std::vector<AuxiliaryFunction> functions() const;
   /// The same, of those groups only that `other` has changed.
   std::vector<AuxiliaryFunction> functions_changed_by(const AuxiliaryMemory& other) const;
@@ -40,7 +45,11 @@ class AuxiliaryMemory {
   bool has_speed_ = false, has_spindle_ = false, has_coolant_ = false;
   bool mist_ = false, flood_ = false;
   double speed_ = 0;
+  bool surface_ = false;
+  double limit_ = 0;
   std::uint32_t spindle_ = 5;
+  double angle_ = 0;  // deg, of M19
+  bool has_angle_ = false;
   std::uint32_t not_repeated_ = 0;
 };
 

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "canonical/turning_speed.hpp"
+#include "language/arc_geometry.hpp"
 #include "machine/alarm_constants.hpp"
 #include "motion/path_segment.hpp"
 
@@ -30,6 +33,16 @@ bool is_path(CommandKind kind) {
   return kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc;
 }
 
+/// What turns the spindle or changes its tool: not on axes whose place is unknown. Clamps and coolant may be
+/// needed for the search of the references.
+bool needs_references(const language::Command& command) {
+  constexpr std::uint32_t clockwise = 3, counterclockwise = 4, tool_change = 6, orientation = 19;
+  if (command.kind == CommandKind::tool) return true;
+  return command.kind == CommandKind::auxiliary &&
+         (command.number == clockwise || command.number == counterclockwise ||
+          command.number == tool_change || command.number == orientation);
+}
+
 }  // namespace
 
 void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, const AxisValues& position,
@@ -45,9 +58,12 @@ void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, c
   search_ = entry.restart.sequence > 0 ? Search::restart : entry.line > 0 ? Search::line : Search::none;
   if (entry.restart.sequence == 0) skips_.clear();
   skips_read_ = 0;
+  values_read_ = 0, value_last_ = false;
   lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   place_ = position;
-  tapping_ = in_hole_ = text_missing_ = false;
+  tapping_ = in_hole_ = text_missing_ = behind_thread_ = false;
+  set_threading(false);
+  surface_speed_used_ = initial.spindle_mode == language::SpindleMode::surface;
   executing_ = initial;
   frames_.clear();
   modals_.clear();
@@ -97,38 +113,103 @@ std::string ProgramFlow::travel_error(const AxisValues& from) {
 }
 
 FlowState ProgramFlow::push_move() {
+  // The drive gives the stream no place before every axis has its reference.
+  if (!without_reference_.empty()) return fail_without_reference();
   const auto& from = motion_->end_position();
-  if (command_.kind != CommandKind::dwell) {
+  if (command_.kind != CommandKind::dwell && command_.kind != CommandKind::read) {
     if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
     if (const auto state = ask_guard(from); state != FlowState::full) return state;
   }
-  auto move = command_.kind == CommandKind::tap ? Tapping::line(command_) : command_;
+  auto move = command_.kind == CommandKind::tap      ? Tapping::line(command_)
+              : command_.kind == CommandKind::thread ? thread_line(command_, from)
+                                                     : command_;
   if (move.kind == CommandKind::skip) move.kind = CommandKind::line;
-  if (dry_run_feed_ > 0 && command_.kind != CommandKind::tap && command_.kind != CommandKind::skip) {
+  if (move.kind == CommandKind::read) move.kind = CommandKind::dwell;
+  const bool own_speed = command_.kind == CommandKind::tap || command_.kind == CommandKind::skip ||
+                         command_.kind == CommandKind::thread;
+  if (dry_run_feed_ > 0 && !own_speed) {
     move.modal.feed = dry_run_feed_;
     move.modal.feed_mode = language::FeedMode::per_minute;
   } else if (move.modal.feed_mode == language::FeedMode::per_revolution) {
-    move.modal.feed *= move.modal.spindle_speed;
+    move.modal.feed *= speed_of_feed(from, move);
     move.modal.feed_mode = language::FeedMode::per_minute;
   }
-  const bool partly = entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0;
-  const bool taken = partly ? motion_->push_from(move, entry_.restart.fraction) : motion_->push(move);
+  const bool taken =
+      begins_within() ? motion_->push_from(move, entry_.restart.fraction) : motion_->push(move);
   if (!taken)
     return fail(language::AlarmNumber::feed_not_positive,
                 "feed must be above zero (per revolution: with the spindle turning)");
   executing_ = command_.modal;
+  if (command_.kind == CommandKind::tap) tap_speed_ = std::max(tap_speed_, stroke_speed(command_));
   have_command_ = false;
   if (on_move) on_move(move);
   return FlowState::full;
 }
 
-// The circle of a restart in the middle of an arc is what is left of it.
+void ProgramFlow::set_threading(bool threading) {
+  threading_ = threading;
+  thread_complete_ = false;
+  legs_.clear();
+  if (threading) legs_.reserve(ThreadPath::most_legs);
+}
+
+// The axes are at rest: the guard may take its time.
+FlowState ProgramFlow::take_leg() {
+  if (!without_reference_.empty()) return fail_without_reference();
+  const auto from = legs_.empty() ? motion_->end_position() : legs_.back().target;
+  if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
+  auto free = ask_guard(from);
+  while (free == FlowState::waiting) {
+    guard_->begin_call();
+    free = ask_guard(from);
+  }
+  if (free != FlowState::full) return free;
+  legs_.push_back(leg_of(command_));
+  executing_ = command_.modal;
+  have_command_ = false;
+  if (on_move) on_move(thread_line(command_, from));
+  thread_complete_ = command_.modal.path_control == language::PathControl::exact_stop ||
+                     legs_.size() == ThreadPath::most_legs;
+  return FlowState::full;
+}
+
+// With G96 the lowest one of the move, so that the feed per revolution is never above F.
+double ProgramFlow::speed_of_feed(const AxisValues& from, const language::Command& move) const {
+  const auto& modal = move.modal;
+  if (modal.spindle_mode != language::SpindleMode::surface) return modal.spindle_speed;
+  const auto* frame = frames_.newest();
+  const double centre = frame == nullptr ? 0 : frame->total_offset()[language::X];
+  double radius = std::max(std::abs(from[language::X] - centre), std::abs(move.target[language::X] - centre));
+  if (move.kind == CommandKind::arc) {
+    const auto arc = remaining_arc(from);
+    for (const double share : language::turning_shares(from, arc, language::X)) {
+      if (share < 0) continue;
+      const auto point = language::point_on_arc(from, move.target, arc, share);
+      radius = std::max(radius, std::abs(point[language::X] - centre));
+    }
+  }
+  return canonical::turning_speed(
+      modal.surface_speed, radius,
+      canonical::lower_limit(modal.spindle_limit, environment_.highest_spindle_speed()));
+}
+
+// The wait before a value is read is made again.
+bool ProgramFlow::begins_within() const {
+  return entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0 &&
+         command_.kind != CommandKind::read;
+}
+
+language::Arc ProgramFlow::remaining_arc(const AxisValues& from) const {
+  auto arc = command_.arc;
+  if (begins_within())
+    arc.sweep = motion::remaining_sweep(from, command_.target, arc, entry_.restart.fraction);
+  return arc;
+}
+
 FlowState ProgramFlow::ask_guard(const AxisValues& from) {
   if (guard_ == nullptr) return FlowState::full;
   auto move = command_;
-  if (entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0 &&
-      move.kind == CommandKind::arc)
-    move.arc.sweep = motion::remaining_sweep(from, move.target, move.arc, entry_.restart.fraction);
+  if (move.kind == CommandKind::arc) move.arc = remaining_arc(from);
   switch (guard_->check(from, move)) {
     case MoveGuard::Verdict::free:
       return FlowState::full;
@@ -153,18 +234,80 @@ FlowState ProgramFlow::push_pending() {
 
 void ProgramFlow::refuse_pending(language::AlarmNumber number) { fail(number); }
 
+void ProgramFlow::refuse_thread(language::AlarmNumber number, std::size_t leg) {
+  const auto& at = legs_[leg];
+  fail(definition_of(number), place(at.program, at.line) + ": " + std::string(language::alarm_text(number)));
+  place_alarm(at.program, at.line);
+}
+
 FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text) {
   return fail(definition_of(number), place(command_.program, command_.line) + ": " + std::string(text));
 }
 
-// A skip move has ended, now or before the restart: the interpreter continues from where it ended.
-FlowState ProgramFlow::continue_after_skip() {
+FlowState ProgramFlow::fail_without_reference() {
+  return fail(language::AlarmNumber::axes_without_reference,
+              "axes without a reference: " + without_reference_ + ". Home them with G28.2, or in mode REF");
+}
+
+// A restart behind it finds the axes as they have been homed since.
+void ProgramFlow::home_ended(const AxisValues& position) {
+  skips_.push_back({position, position});
+  place_ = position;
+  extent_ = channel_setup::AxisBox::of(position);
+  finish_pending();
+}
+
+// Equal values behind each other are one result, so that a program that waits for a value can be continued:
+// X of `stopped` is the value, X of `touched` how often it was read.
+void ProgramFlow::value_read(double value) {
+  using language::X;
+  if (value_last_ && skips_.back().stopped[X] == value) {
+    values_read_ = skips_.back().touched[X];
+    skips_.back().touched[X] += 1;
+    --skips_read_;
+    return;
+  }
+  SkipResult result;
+  result.stopped[X] = value, result.touched[X] = 1;
+  skips_.push_back(result);
+}
+
+// As behind a skip move.
+FlowState ProgramFlow::continue_after_read() {
   if (search_ == Search::line)
+    return fail_search("line " + std::to_string(command_.line) +
+                       " reads the state of a spindle, and what follows depends on it");
+  if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
+  const auto& result = skips_[skips_read_];
+  interpreter_.give_value(result.stopped[language::X]);
+  values_read_ += 1;
+  value_last_ = values_read_ >= result.touched[language::X];
+  if (value_last_) ++skips_read_, values_read_ = 0;
+  return FlowState::full;
+}
+
+// What was read behind the restart point is void.
+void ProgramFlow::drop_later_results() {
+  if (values_read_ > 0) {
+    skips_[skips_read_].touched[language::X] = std::exchange(values_read_, 0);
+    ++skips_read_;
+    value_last_ = true;
+  }
+  skips_.resize(skips_read_);
+}
+
+// A skip move has ended, now or before the restart: the interpreter continues from where it ended. A search
+// for references that was passed over has ended at the reference positions.
+FlowState ProgramFlow::continue_after_skip() {
+  if (search_ == Search::line && interpreter_.homing())
+    skips_.push_back({home_target_, home_target_});
+  else if (search_ == Search::line)
     return fail_search("line " + std::to_string(command_.line) +
                        " measures (G31), and what follows depends on it");
   if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
   interpreter_.set_position(skips_[skips_read_].stopped, skips_[skips_read_].touched);
   ++skips_read_;
+  value_last_ = false;
   return FlowState::full;
 }
 
@@ -185,6 +328,8 @@ FlowState ProgramFlow::arrive_at_line() {
     return fail_search("cutter radius compensation is on here: start before its G41 or G42");
   if (modal.motion == 62) return fail_search("the line is in the middle of a curve (G6.2)");
   search_ = Search::none;
+  behind_thread_ = coupled_threads_ && command_.kind == CommandKind::thread &&
+                   command_.modal.path_control == language::PathControl::continuous;
   executing_ = modal;
   modals_.clear();
   modals_.add(0, modal);
@@ -209,6 +354,8 @@ FlowState ProgramFlow::take_step(language::Step step) {
       return continue_after_skip();
     case language::Step::answer:
       return fail_after_cycle();
+    case language::Step::value:
+      return continue_after_read();
     case language::Step::line:
       return arrive_at_line();
     case language::Step::end:
@@ -228,11 +375,21 @@ FlowState ProgramFlow::take_step(language::Step step) {
   return FlowState::waiting;
 }
 
+std::optional<double> ProgramFlow::turning_radius(std::uint32_t sequence, const AxisValues& position) const {
+  if (!surface_speed_used_) return std::nullopt;
+  const auto* modal = modals_.at(sequence);
+  if (modal == nullptr || modal->spindle_mode != language::SpindleMode::surface) return std::nullopt;
+  const auto* frame = frames_.at(sequence);
+  const double centre = frame == nullptr ? 0 : frame->total_offset()[language::X];
+  return std::abs(position[language::X] - centre);
+}
+
 // Moves to where the axes are take no time, and motion may make one point of short ones to and fro: a loop of
 // these is one without motion.
 void ProgramFlow::note_motion() {
   const auto kind = command_.kind;
   bool moves = kind == CommandKind::tap || kind == CommandKind::skip || kind == CommandKind::arc ||
+               kind == CommandKind::home || kind == CommandKind::thread || kind == CommandKind::read ||
                (kind == CommandKind::dwell && command_.dwell_seconds > 0);
   for (std::size_t i = 0; i < place_.size() && is_path(kind); ++i)
     moves = moves || std::abs(command_.target[i] - place_[i]) > least_motion;
@@ -245,6 +402,7 @@ void ProgramFlow::note_motion() {
 FlowState ProgramFlow::fill(bool single_block) {
   text_missing_ = false;
   if (alarm_ != nullptr) return FlowState::alarm;
+  if (thread_complete_) return FlowState::full;
   if (guard_ != nullptr) guard_->begin_call();
   // A long search for the restart point must leave time for messages.
   constexpr int most_commands = 4096;
@@ -261,6 +419,7 @@ FlowState ProgramFlow::fill(bool single_block) {
       if (step == language::Step::working) continue;
       if (const auto state = take_step(step); state != FlowState::full) return state;
       if (!have_command_) continue;
+      if (command_.kind == CommandKind::home) home_target_ = command_.target;
       note_motion();
     }
     if (searching()) {
@@ -272,28 +431,49 @@ FlowState ProgramFlow::fill(bool single_block) {
         continue;
       }
       // The spindle is no longer coupled to the position in the thread.
-      if (drilling) return fail(language::AlarmNumber::not_resumable);
+      if (drilling || (coupled_threads_ && command_.kind == CommandKind::thread))
+        return fail(language::AlarmNumber::not_resumable);
       search_ = Search::none;
       // A drive that lost its newest cycles repeats the skip moves in them: their results are void.
-      skips_.resize(skips_read_);
+      drop_later_results();
       modals_.clear();
       modals_.add(0, command_.modal);
       motion_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
     }
     if (command_.modal.frame != frame_) frames_.add(command_.sequence, interpreter_.frame_of(command_));
     frame_ = command_.modal.frame;
+    surface_speed_used_ =
+        surface_speed_used_ || command_.modal.spindle_mode == language::SpindleMode::surface;
     if (!(*modals_.newest() == command_.modal)) modals_.add(command_.sequence, command_.modal);
     const bool stroke =
         command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
-    const bool move = is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke;
-    if (single_block && block_line_ != 0 && command_.line != block_line_) {
+    const bool thread = command_.kind == CommandKind::thread;
+    const bool coupled = thread && coupled_threads_;
+    const bool continues = coupled && command_.number == 0;
+    const bool move =
+        is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke || (thread && !coupled);
+    if (std::exchange(behind_thread_, false) && continues)
+      return fail_search("the line continues a thread: start before the first block of it");
+    if (threading_ && !continues && !(coupled && legs_.empty())) {
+      thread_complete_ = true;
+      return FlowState::full;
+    }
+    if (single_block && block_line_ != 0 && command_.line != block_line_ && !threading_) {
       motion_->finish();
       return FlowState::block_end;
     }
     block_line_ = command_.line;
+    if (thread && machine_ != nullptr && !machine_->tapping_spindle().axis)
+      return fail(language::AlarmNumber::tapping_spindle_missing);
+    if (threading_) {
+      if (const auto state = take_leg(); state == FlowState::alarm) return state;
+      if (thread_complete_) return FlowState::full;
+      continue;
+    }
     if (!move || stroke != tapping_) {
-      if (command_.kind == CommandKind::skip || stroke) executing_ = command_.modal;
+      if (command_.kind == CommandKind::skip || stroke || coupled) executing_ = command_.modal;
       motion_->finish();
+      if (!without_reference_.empty() && needs_references(command_)) return fail_without_reference();
       return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;
     }
     const auto state = push_move();

@@ -6,6 +6,9 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "channel_setup/channel_setup.hpp"
 #include "language/interpreter.hpp"
@@ -16,6 +19,7 @@
 #include "program_execution/move_guard.hpp"
 #include "program_execution/skip_result.hpp"
 #include "program_execution/tapping.hpp"
+#include "program_execution/thread_path.hpp"
 
 namespace trunnion::program_execution {
 
@@ -72,6 +76,12 @@ class ProgramFlow {
   /// kept. Nothing when there are none.
   void set_offset(const std::optional<AxisValues>& offset) { offset_ = offset; }
 
+  /// Names of the axes that have no reference: a move, a turn of the spindle and a tool change are then
+  /// alarms. Empty: all have theirs.
+  void set_without_reference(std::string_view axes) { without_reference_.assign(axes); }
+  /// As Interpreter::set_homed().
+  void set_homed(std::optional<std::uint16_t> axes) { interpreter_.set_homed(axes); }
+
   /// Ends a program where `watch` finds that it repeats for ever: Interpreter::watch_loops().
   void watch_loops(language::EndlessLoop* watch) { interpreter_.watch_loops(watch); }
 
@@ -104,15 +114,31 @@ class ProgramFlow {
   /// The pending command cannot be carried out: FlowState::alarm.
   void refuse_pending(language::AlarmNumber number);
   /// Rigid tapping has started or ended: strokes and the dwells between them are moves meanwhile.
-  void set_tapping(bool tapping) { tapping_ = tapping; }
+  void set_tapping(bool tapping) { tapping_ = tapping, tap_speed_ = 0; }
+  /// The highest speed of the spindle in the strokes that motion has got since, 1/min.
+  double tap_speed() const { return tap_speed_; }
+  /// Threads follow the spindle: FlowState::command comes before one; else they are lines that motion gets.
+  void set_coupled_threads(bool coupled) { coupled_threads_ = coupled; }
+  /// Called at rest, with a thread pending: fill() then collects it, and those that continue it, in legs() up
+  /// to another command, an exact stop or the most legs, and gives motion nothing. Off: legs() are done.
+  void set_threading(bool threading);
+  const std::vector<ThreadLeg>& legs() const { return legs_; }
+  /// One of them cannot be cut: FlowState::alarm.
+  void refuse_thread(language::AlarmNumber number, std::size_t leg);
   /// Where the pending skip move ended; the interpreter continues from there. A restart of the program reads
   /// the results again.
   void skip_ended(const SkipResult& result) { skips_.push_back(result); }
+  /// The pending search for references has ended at `position`; the interpreter continues from there. A
+  /// restart of the program reads it again, as the results of skip moves.
+  void home_ended(const AxisValues& position);
   /// The pending call of a cycle was answered.
   void cycle_answered(double value) {
     interpreter_.answer(value);
     finish_pending();
   }
+  /// Where time has passed for the pending reading of a value: what the drive says. A restart of the program
+  /// reads it again.
+  void value_read(double value);
   /// While a call of a cycle is pending: the local variables of the macro that calls, the line of the started
   /// program, and the modal state it is called in.
   const std::array<language::Value, language::local_variables>& locals() const {
@@ -138,6 +164,11 @@ class ProgramFlow {
   const FrameTrail& frames() const { return frames_; }
   /// Their modal states; behind start() or a found line that in which the program begins.
   const ModalTrail& modals() const { return modals_; }
+  /// A command since the start, or the state it began in, had a constant surface speed (G96).
+  bool surface_speed_used() const { return surface_speed_used_; }
+  /// mm from the centre of the spindle, X = 0 of the workpiece, of `position` in the command `sequence`;
+  /// nothing without G96.
+  std::optional<double> turning_radius(std::uint32_t sequence, const AxisValues& position) const;
   /// Of the newest command handed to motion.
   const language::ModalState& executing() const { return executing_; }
   /// The spindle and coolant functions of the commands that are done or were skipped.
@@ -163,9 +194,17 @@ class ProgramFlow {
   /// Empty, or the line of the axis that the pending move would take out of its travel.
   std::string travel_error(const AxisValues& from);
   FlowState push_move();
+  /// 1/min that a feed per revolution of `move` from `from` counts with.
+  double speed_of_feed(const AxisValues& from, const language::Command& move) const;
+  /// The pending command is that of the restart, which begins in the middle of it.
+  bool begins_within() const;
+  /// The circle of the pending arc, from where it begins.
+  language::Arc remaining_arc(const AxisValues& from) const;
+  FlowState fail_without_reference();
   /// Full: motion may have the pending move. Waiting: the guard has not finished. Else alarm.
   FlowState ask_guard(const AxisValues& from);
   FlowState take_step(language::Step step);
+  FlowState take_leg();
   FlowState arrive_at_line();
   FlowState fail(const machine::AlarmDefinition& alarm, const std::string& text);
   FlowState fail(language::AlarmNumber number, std::string_view text);
@@ -174,6 +213,8 @@ class ProgramFlow {
   void place_alarm(std::uint32_t program, std::uint32_t line);
   FlowState continue_after_skip();
   FlowState fail_after_cycle();
+  FlowState continue_after_read();
+  void drop_later_results();
   language::Environment& environment_;
   const channel_setup::ChannelSetup* machine_ = nullptr;
   motion::MoveTaker* motion_ = nullptr;  // of the run
@@ -193,10 +234,19 @@ class ProgramFlow {
   Entry entry_;
   Search search_ = Search::none;
   bool tapping_ = false, in_hole_ = false, text_missing_ = false;
+  double tap_speed_ = 0;
+  bool coupled_threads_ = false, threading_ = false, thread_complete_ = false;
+  bool behind_thread_ = false;  // the line to start from may continue one
+  std::vector<ThreadLeg> legs_;
+  bool surface_speed_used_ = false;
   std::uint64_t lines_at_motion_ = 0, most_lines_ = lines_of_loop;
-  AxisValues place_{};  // where the newest motion ends
+  AxisValues place_{};        // where the newest motion ends
+  AxisValues home_target_{};  // of the newest search for references
+  std::string without_reference_;
   std::vector<SkipResult> skips_;
   std::size_t skips_read_ = 0;
+  double values_read_ = 0;   // of the equal values that the next result is
+  bool value_last_ = false;  // the result before it is one of equal values
 
   const machine::AlarmDefinition* alarm_ = nullptr;
   std::string alarm_text_;

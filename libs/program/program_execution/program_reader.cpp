@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_execution/program_reader.hpp"
 
+#include "canonical/spindle_value.hpp"
 #include "language/codes.hpp"
 
 namespace trunnion::program_execution {
@@ -40,7 +41,7 @@ Ending ProgramReader::read(language::TextSource& text, const AxisValues& start) 
 
 std::optional<Ending> ProgramReader::turn() {
   motion_->prepare(flow_, tapping_.active());
-  const auto state = skip_on_its_way_ ? FlowState::full : flow_.fill(false);
+  const auto state = skip_on_its_way_ || read_on_its_way_ ? FlowState::full : flow_.fill(false);
   if (state != FlowState::waiting && !motion_->at_rest()) {
     if (!motion_->step()) return Ending::stopped;
     return std::nullopt;
@@ -56,6 +57,11 @@ std::optional<Ending> ProgramReader::go_on_at_rest(FlowState state) {
   if (skip_on_its_way_) {
     skip_on_its_way_ = false;
     flow_.skip_ended({motion_->position(), motion_->position()});
+    return std::nullopt;
+  }
+  if (read_on_its_way_) {
+    if (++reads_ > options_.most_idle_reads) return Ending::idle;
+    answer_read();
     return std::nullopt;
   }
   if (tapping_.active()) {
@@ -89,12 +95,20 @@ std::optional<Ending> ProgramReader::take(const Command& command) {
     case CommandKind::skip:
       skip_on_its_way_ = flow_.push_pending() != FlowState::alarm;
       return std::nullopt;
+    case CommandKind::read:
+      read_on_its_way_ = flow_.push_pending() != FlowState::alarm;
+      return std::nullopt;
     case CommandKind::tap:
       begin_tapping(command);
       return std::nullopt;
     case CommandKind::cycle:
       pass(command, command);
       flow_.cycle_answered(0);
+      return std::nullopt;
+    case CommandKind::home:
+      motion_->moves().start(command.target, transformation_, tool_length_);
+      pass(command, command);
+      flow_.home_ended(command.target);
       return std::nullopt;
     case CommandKind::transformation:
       transformation_ = command.modal.transformation;
@@ -110,6 +124,15 @@ std::optional<Ending> ProgramReader::take(const Command& command) {
   pass(command, command);
   flow_.finish_pending();
   return std::nullopt;
+}
+
+// So that programs that wait for it go on.
+void ProgramReader::answer_read() {
+  read_on_its_way_ = false;
+  const auto value = canonical::read_value(flow_.pending().number);
+  const bool holds =
+      value == canonical::SpindleValue::homed || value == canonical::SpindleValue::synchronized;
+  flow_.value_read(holds ? 1 : 0);
 }
 
 void ProgramReader::begin_tapping(const Command& stroke) {
@@ -140,8 +163,11 @@ void ProgramReader::pass(const Command& command, const Command& move) {
     case CommandKind::arc:
     case CommandKind::skip:
     case CommandKind::tap:
+    case CommandKind::thread:
     case CommandKind::transformation:
+    case CommandKind::home:
       from_ = command.target;
+      reads_ = 0;
       break;
     default:
       break;

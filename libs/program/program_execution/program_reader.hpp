@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a whole program without a cluster, for what checks, draws or plans it. Moves and alarms are those of
 // the channel, for they come from the same ProgramFlow; what the channel asks of others while the axes stand
-// is done at once: the PLC carries out every function, a skip move meets nothing, and the cycle of another
-// service has no parts.
+// is done at once: the PLC carries out every function, a skip move meets nothing, a search for references
+// ends at the reference position, the cycle of another service has no parts, and spindles are homed,
+// synchronized and without error.
 #pragma once
 
 #include <functional>
@@ -29,6 +30,8 @@ struct ReadingOptions {
   bool find_repetition = true;
   /// In a row, without a move, after which a program is Ending::idle.
   std::uint64_t most_idle_lines = 100000000;
+  /// Values of spindles, likewise.
+  std::uint64_t most_idle_reads = 10000;
 };
 
 /// For one program. Too large for the stack of a small thread.
@@ -44,7 +47,7 @@ class ProgramReader {
   ProgramReader& operator=(const ProgramReader&) = delete;
 
   /// Sees each command once the channel would have taken it, and its move as motion has got it; the two are
-  /// the same but for skip moves, strokes of taps and feeds per revolution. May be empty.
+  /// the same but for skip moves, strokes of taps, threads and feeds per revolution. May be empty.
   std::function<void(const language::Command& command, const language::Command& move)> on_command;
   /// Ends the reading when it is true. Asked at least every few thousand commands; may be empty.
   std::function<bool()> stop;
@@ -68,6 +71,7 @@ class ProgramReader {
   std::optional<Ending> turn();
   std::optional<Ending> go_on_at_rest(FlowState state);
   std::optional<Ending> take(const language::Command& command);
+  void answer_read();
   void begin_tapping(const language::Command& stroke);
   void end_tapping();
   void pass(const language::Command& command, const language::Command& move);
@@ -80,7 +84,8 @@ class ProgramReader {
   ProgramMotion* motion_;
   language::EndlessLoop loop_;
   Tapping tapping_;
-  bool skip_on_its_way_ = false;
+  bool skip_on_its_way_ = false, read_on_its_way_ = false;
+  std::uint64_t reads_ = 0;  // since the newest move
   AxisValues from_{};
   language::Transformation transformation_ = language::Transformation::none;
   double tool_length_ = 0;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a skip move (G31) ended.
+// Where a skip move (G31) ended; also what else a program has learned at rest, in its order: where a search
+// for references has ended, and values of spindles (ProgramFlow::value_read).
 #pragma once
+
+#include <vector>
 
 #include "language/canonical.hpp"
 
@@ -18,5 +21,11 @@ struct SkipResult {
     visit("stopped", self.stopped), visit("touched", self.touched);
   }
 };
+
+/// `results` are those of `others` and more; both are of one run of a program.
+inline bool goes_farther(const std::vector<SkipResult>& results, const std::vector<SkipResult>& others) {
+  if (results.size() != others.size()) return results.size() > others.size();
+  return !results.empty() && results.back().touched[language::X] > others.back().touched[language::X];
+}
 
 }  // namespace trunnion::program_execution

@@ -38,10 +38,14 @@ motion::Limits Tapping::limits(motion::Limits limits, double acceleration) const
   return limits;
 }
 
+double Tapping::override_of(double wanted, double speed, double highest) {
+  return highest > 0 && wanted * speed > highest ? highest / speed : wanted;
+}
+
 language::Command Tapping::line(language::Command stroke) {
   stroke.kind = language::CommandKind::line;
   stroke.modal.feed_mode = language::FeedMode::per_minute;
-  stroke.modal.feed = std::abs(stroke.value) * stroke.modal.spindle_speed;
+  stroke.modal.feed = std::abs(stroke.value) * stroke_speed(stroke);
   stroke.modal.path_control = language::PathControl::exact_stop;
   return stroke;
 }

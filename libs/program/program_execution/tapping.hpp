@@ -22,7 +22,10 @@ class Tapping {
   double revolutions(const AxisValues& position) const;
   /// `limits` within which the spindle, of `acceleration` degrees/s^2, can follow.
   motion::Limits limits(motion::Limits limits, double acceleration) const;
-  /// A stroke as the line the axes make: at lead times S, to an exact stop.
+  /// The override of a hole: `wanted`, or less so that the spindle, whose fastest stroke is at `speed`, does
+  /// not turn faster than `highest`; 1/min, 0 = no limit.
+  static double override_of(double wanted, double speed, double highest);
+  /// A stroke as the line the axes make: at lead times the speed of the spindle, to an exact stop.
   static language::Command line(language::Command stroke);
 
  private:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Finds the stops of channels while a run is recorded.
 #pragma once
 
 #include <vector>

@@ -37,6 +37,7 @@ class Tracer {
       case CommandKind::line:
       case CommandKind::skip:
       case CommandKind::tap:
+      case CommandKind::thread:
       case CommandKind::arc: {
         trace(from, command);
         out_.feed_lines.insert(command.line);
@@ -45,6 +46,7 @@ class Tracer {
         break;
       }
       case CommandKind::transformation:
+      case CommandKind::home:
         jump(command);
         break;
       default:

@@ -127,9 +127,11 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
 
 void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) const {
   const auto coupled = [&](const auto& batch) {
+    if (row < batch.turning_radius.size()) out.push_back({"turning_radius", batch.turning_radius[row]});
     if (row >= batch.spindle.size()) return;
     out.push_back({"spindle_axis", batch.spindle_axis});
     out.push_back({"spindle", batch.spindle[row]});
+    if (batch.follows_spindle) out.push_back({"follows_spindle", true});
   };
   const auto indexed = [&](const char* name, const auto& values, std::size_t first, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
@@ -145,6 +147,11 @@ void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) co
   if (row + 1 != rows_) return;
   indexed("spindle_speed", f.spindle_speed, 0, spindles);
   indexed("spindle_oriented", f.spindle_oriented, 0, f.spindle_oriented.size());
+  for (std::size_t i = 0; i < f.spindles.size(); ++i) {
+    const auto place = "[" + std::to_string(i) + "]";
+    out.push_back({"spindle_condition" + place, bus::to_string(f.spindles[i].condition)});
+    out.push_back({"spindle_reference" + place, f.spindles[i].reference});
+  }
   indexed("velocity", f.velocity, 0, f.velocity.size());
   indexed("torque", f.torque, 0, f.torque.size());
 }

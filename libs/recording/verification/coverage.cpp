@@ -62,7 +62,7 @@ class Search {
       see("motion", path_.count > 0);
       see("tool tip control", path_.transformation == idl::stream::Transformation::RTCP);
       see("skip move", !path_.snapshot.skip_stopped.empty());
-      see("tapping", !path_.spindle.empty());
+      see("tapping", !path_.spindle.empty() && !path_.follows_spindle);
     } else if (type == bus::Fields<AxisBatch>::name && bus::decode(message.cdr, axis_)) {
       see("motion", axis_.count > 0);
       revisions_.insert(axis_.revision);

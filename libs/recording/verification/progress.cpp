@@ -5,15 +5,14 @@
 
 #include "bus/codec.hpp"
 #include "contracts/topics.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::verification {
 
 const bus::TopicEntry* topic_of(idl::stream::Input input) {
   // Its handle is its name in the contract, in small letters.
-  std::string handle = bus::EnumNames<idl::stream::Input>::names[static_cast<std::size_t>(input)];
-  std::transform(handle.begin(), handle.end(), handle.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return bus::find_topic(handle);
+  return bus::find_topic(
+      text::lower_case(bus::EnumNames<idl::stream::Input>::names[static_cast<std::size_t>(input)]));
 }
 
 void Progress::count(const std::vector<idl::stream::AppliedInput>& applied) {

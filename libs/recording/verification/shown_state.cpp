@@ -31,6 +31,16 @@ bool is(const StoredMessage& message, const char* handle, T& value) {
   return message.topic->handle == handle && bus::decode(message.cdr, value);
 }
 
+// The angle is shown in hundredths of a degree, from 0 up to 359.99.
+Json shown(const idl::stream::SpindleState& spindle) {
+  const auto turn = spindle.angle - std::floor(spindle.angle);
+  return {{"condition", bus::to_string(spindle.condition)},
+          {"homed", spindle.homed},
+          {"angle", std::fmod(std::round(turn * 36000), 36000) / 100},
+          {"gear", spindle.gear},
+          {"master", spindle.master}};
+}
+
 }  // namespace
 
 bool is_shown(const bus::TopicEntry& topic) {
@@ -94,6 +104,7 @@ void ShownState::observe(const StoredMessage& message) {
               {"mode", bus::to_string(feedback.mode)},
               {"starved", feedback.starved},
               {"spindle_speed", feedback.spindle_speed}};
+    for (const auto& spindle : feedback.spindles) drive_["spindles"].push_back(shown(spindle));
     feedback_ = std::move(feedback);
   } else if (is(message, "plc_outputs", outputs)) {
     auto channels = Json::array();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What the files of a machine give the parameter store to begin with.
 #pragma once
 
 #include "machine/machine.hpp"

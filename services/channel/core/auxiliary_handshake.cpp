@@ -4,10 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "canonical/spindle_value.hpp"
+
 namespace trunnion::channel {
 
 void AuxiliaryHandshake::begin(const program_execution::AuxiliaryFunction& function, std::uint64_t cycle) {
-  request_ = {channel_, ++number_, function.kind, function.code, function.value, cycle};
+  request_ = {channel_,           ++number_, function.kind,    function.code,  function.value,
+              function.has_value, cycle,     function.surface, function.limit, function.radius};
   outgoing_ = request_;
   open_ = true;
 }
@@ -15,6 +18,7 @@ void AuxiliaryHandshake::begin(const program_execution::AuxiliaryFunction& funct
 std::string AuxiliaryHandshake::function() const {
   if (!open_) return {};
   using program_execution::AuxiliaryKind;
+  if (request_.kind == AuxiliaryKind::E && request_.code == canonical::order_angle) return "EC";
   const auto number = request_.kind == AuxiliaryKind::S
                           ? static_cast<std::uint32_t>(std::lround(request_.value))
                           : request_.code;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program asks of the PLC while the axes are at rest: M S T.
+// What a program asks of the PLC while the axes are at rest: M S T, and orders for spindles (E).
 #pragma once
 
 #include <optional>

@@ -42,23 +42,29 @@ Answer ChannelCore::operable() const {
   return {};
 }
 
+std::string ChannelCore::names_without_reference() const {
+  std::string names;
+  if (!parameters_ || homing_.all_referenced()) return names;
+  for (const auto& axis : machine::drive_axes(*parameters_))
+    if (!homing_.referenced(axis.number)) names += (names.empty() ? "" : ", ") + axis.name;
+  return names;
+}
+
 // The drive moves nothing while any of its axes has no reference.
 Answer ChannelCore::startable() const {
   if (auto answer = operable(); !answer.accepted) return answer;
-  std::string names;
-  for (const auto& axis : machine::drive_axes(*parameters_))
-    if (!homing_.referenced(axis.number)) names += (names.empty() ? "" : ", ") + axis.name;
+  const auto names = names_without_reference();
   if (names.empty()) return {};
   return refuse(alarm::not_homed,
                 "Axes without a reference: " + names + ". Mode REF, then reference return of each");
 }
 
-// A jog and the search for a reference stop at once.
+// A jog and the search for a reference by hand stop at once.
 void ChannelCore::set_control(const idl::plc::ChannelControl& control) {
   if (interlock_.set_control(control)) {
     manual_.stop();
     stop_jog();
-    end_homing();
+    if (!program_homing_.under_way()) end_homing();
   }
   if (!control.sets_overrides) return;
   switches_.feed_override = commands::feed_override.clamp(control.feed_override);
@@ -147,7 +153,8 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
 // A program that is held may be left for MDI and manual motion; cycle start in AUTO returns to it. Before its
 // restart point is reached it may not: its trajectory starts there, wherever the axes are.
 Answer ChannelCore::set_mode(Mode mode) {
-  const bool leaves = states_.may_suspend() && !restart_ && !tapping_.active() && !skip_.active();
+  const bool leaves = states_.may_suspend() && !restart_ && !tapping_.active() && !thread_.active() &&
+                      !skip_.active() && !read_.active() && !program_homing_.under_way();
   if (states_.busy() && !leaves && mode != mode_)
     return refuse(alarm::request_invalid,
                   "The mode cannot change while the channel is busy: stop or reset it first");
@@ -169,7 +176,11 @@ Answer ChannelCore::select(const std::string& name) {
 
 Answer ChannelCore::cycle_start() {
   if (auto refusal = interlock_.start()) return refuse(std::move(*refusal));
-  if (auto answer = startable(); !answer.accepted) return answer;
+  // What comes next may home the axes: a program without references ends at its first move.
+  const bool reads_on = states_.in<Held>() && states_.interpreting() && states_.preparing() == nullptr &&
+                        path().trajectory().at_rest();
+  if (auto answer = states_.in<Idle>() || reads_on ? operable() : startable(); !answer.accepted)
+    return answer;
   if (states_.in<Idle>()) {
     if (mode_ != Mode::AUTO)
       return refuse(alarm::request_invalid, "Cycle start needs mode AUTO (or an MDI line)");
@@ -210,6 +221,9 @@ Answer ChannelCore::continue_after_interruption() {
     entry.restart = *restart_;
     return start_program(entry);
   }
+  if (thread_.cutting())
+    return refuse(alarm::not_ready,
+                  "The axes were stopped in a thread: reset the channel, retract the tool, cut it again");
   stream_.link().request_resume();
   states_.resume_interrupted();
   return {};

@@ -85,7 +85,7 @@ RunningProgram ChannelCore::running_program() const {
   if (program_under_way())
     left = {selected().name, selected().revision, selected().crc32,
             std::max<std::uint32_t>(program_line(), 1)};
-  return {left, ended_, parts_, tool_, tool_since_};
+  return {left, ended_, parts_, tool_, tool_since_, tap_};
 }
 
 // What the program has read ahead counts: a variable is not restored when the motion behind it is stopped.
@@ -98,6 +98,7 @@ void ChannelCore::keep_variables() {
 }
 
 AxisValues ChannelCore::machine_position() const {
+  if (thread_.cutting()) return path().machine_of(thread_.position());
   if (!states_.is(Activity::handwheel)) return path().machine_position();
   auto position = machine_start_;
   for (std::size_t i = 0; i < position.size(); ++i) position[i] += manual_.wheel()[i];
@@ -131,7 +132,10 @@ void ChannelCore::stop_activity() {
   const bool moved = preparing == nullptr || preparing->approaching;
   if (states_.busy() && stream_.idle() && !link().needs_epoch() && moved) machine_start_ = machine_position();
   skip_.end();
+  read_.end();
+  program_homing_.end();
   finish_tapping();
+  finish_thread();
   if (stream_.moving() || link().state() == LinkState::requested) stream_.link().leave();
   keep_variables();
   if (states_.is(Activity::program) && preparing == nullptr) states_.forget_suspended();
@@ -149,7 +153,10 @@ void ChannelCore::stop_activity() {
 void ChannelCore::finish(bool program_end) {
   const bool reset = states_.resetting();
   skip_.end();
+  read_.end();
+  program_homing_.end();
   finish_tapping();
+  finish_thread();
   machine_start_ = machine_position();
   manual_.end_wheel();
   bodies_.forget_jog();

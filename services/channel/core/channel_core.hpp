@@ -33,13 +33,17 @@
 #include "mdi.hpp"
 #include "program_cache.hpp"
 #include "program_execution/program_flow.hpp"
+#include "program_execution/tap_in_hole.hpp"
 #include "program_execution/tapping.hpp"
+#include "program_homing.hpp"
 #include "program_record.hpp"
 #include "program_selection.hpp"
 #include "skip_move.hpp"
+#include "spindle_read.hpp"
 #include "stream_writer.hpp"
 #include "switches.hpp"
 #include "table_change.hpp"
+#include "thread_run.hpp"
 
 namespace trunnion::channel {
 
@@ -81,11 +85,14 @@ class ChannelCore {
   void set_interrupted(const RunningProgram& program) {
     interrupted_ = program, ended_ = program.ended, parts_ = program.parts;
     tool_ = program.tool, tool_since_ = program.tool_since;
+    tap_ = program.tap;
   }
   /// Machined since the count was set.
   std::uint32_t parts() const { return parts_; }
   /// In the spindle.
   std::uint32_t tool() const { return tool_; }
+  /// The tap that is in its hole, or was left there.
+  const program_execution::TapInHole& tap() const { return tap_; }
   /// `collision: warn` or `stop` of machine.yaml; without it nothing is checked.
   void guard(machine::CollisionMode mode, const collision_guard::BodiesText& bodies);
   void set_programs(const idl::program::ProgramList& programs);
@@ -114,7 +121,7 @@ class ChannelCore {
   void set_control(const idl::plc::ChannelControl& control);
   const idl::plc::ChannelControl& control() const { return interlock_.control(); }
   /// Logical numbers of the axes whose position is not known: a reference return gives them their reference.
-  void set_unreferenced(std::set<std::uint16_t> axes) { homing_.set_unreferenced(std::move(axes)); }
+  void set_unreferenced(std::set<std::uint16_t> axes);
   void set_ready(bool ready) { interlock_.set_ready(ready); }
   /// As StreamWriter::set_replicas().
   void set_replicas(bool may_start, std::uint64_t floor) { stream_.set_replicas(may_start, floor); }
@@ -165,9 +172,10 @@ class ChannelCore {
   // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_. No
   // fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
   // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and the state of the
-  // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, skip_,
-  // exact_stop_, tapping_, restart_, recovered_, variables_news_, events_. No fields, they are made again:
-  // program_path_, manual_path_, program_cache_, bodies_, unusable_, state_.
+  // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, skip_, read_,
+  // exact_stop_, tapping_, thread_, program_homing_, homed_at_start_, restart_, recovered_, variables_news_,
+  // events_. No fields, they are made again: program_path_, manual_path_, program_cache_, bodies_, unusable_,
+  // state_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("link", self.stream_.link()), visit("handshake", self.handshake_),
@@ -184,6 +192,7 @@ class ChannelCore {
     // Written where there is something: older recordings have no such state.
     constexpr bool reads = !std::is_const_v<Self>;
     if (reads || self.tool_since_ != 0) visit("tool_since", self.tool_since_);
+    if (reads || self.tap_.lead != 0) visit("tap", self.tap_);
   }
 
  private:
@@ -192,6 +201,7 @@ class ChannelCore {
   Answer refuse(Refusal refusal) const { return refuse(*refusal.alarm, std::move(refusal.reason)); }
   Answer operable() const;
   Answer startable() const;
+  std::string names_without_reference() const;
   Answer set_override(double& override_, double fraction);
   Answer set_mode(Mode mode);
   Answer select(const std::string& name);
@@ -266,7 +276,7 @@ class ChannelCore {
   std::uint8_t role() const;
   void change_table(const language::Command& command);
   void count_part();
-  void begin_auxiliary(const program_execution::AuxiliaryFunction& function);
+  void begin_auxiliary(program_execution::AuxiliaryFunction function);
 
   void begin_cycle(const language::Command& command);
   void settle_cycle();
@@ -275,8 +285,24 @@ class ChannelCore {
   // channel_cycles.cpp: moves that a skip input ends, and those a spindle follows.
   void begin_skip();
   void finish_skip();
+  void begin_read(const language::Command& command);
+  bool finish_read();
   void begin_tapping();
   void finish_tapping();
+  double tapping_override() const;
+  void begin_thread();
+  void cut_thread();
+  StreamCycle step_thread(std::uint64_t cycle);
+  void finish_thread();
+
+  // channel_homing.cpp: axes that a program homes.
+  void begin_program_homing(const language::Command& command);
+  void home_next();
+  void advance_program_homing();
+  void note_found(std::uint16_t axis);
+  void end_program_homing();
+  void tell_references();
+  std::uint16_t homed_axes() const;
 
   // channel_stream.cpp: setpoints.
   void hold();
@@ -284,6 +310,7 @@ class ChannelCore {
   bool motion_at_rest() const;
   void check_exact_stop(std::uint64_t cycle);
   StreamCycle step_cycle(std::uint64_t cycle);
+  void add_offset(StreamCycle& out, const AxisValues& machine);
   bool in_machine_coordinates() const { return lock_.any() || manual_.offset_on(); }
   void remember_executed();
   void store_state(FlowState state, idl::stream::ChannelSnapshot& out) const;
@@ -306,7 +333,9 @@ class ChannelCore {
     return states_.is(Activity::program) && (preparing == nullptr || !preparing->approaching);
   }
   bool uses_feedback() const;
-  bool braking() const { return states_.feed_hold() && !tapping_.active(); }
+  bool braking() const { return states_.feed_hold() && !tapping_.active() && !thread_.cutting(); }
+  /// The PLC has stopped spindle and axis of a tap.
+  bool tap_stopped() const { return tapping_.active() && control().tap_stop; }
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;
   AxisValues drive_position() const;
@@ -329,6 +358,7 @@ class ChannelCore {
   bool cycle_service_ = false;
   ManualMotion manual_;
   Homing homing_;
+  ProgramHoming program_homing_;
   // The program's motion stays planned while the axes are moved by MDI, by hand or to the program's start.
   ChannelPath program_path_, manual_path_;
   ProgramFlow program_flow_;
@@ -336,8 +366,10 @@ class ChannelCore {
   ProgramCache program_cache_;
   ChannelBodies bodies_;
   SkipMove skip_;
+  SpindleRead read_;
   ExactStopCheck exact_stop_;
   Tapping tapping_;
+  ThreadRun thread_;
   AxisLock lock_;
 
   Mode mode_ = Mode::JOG;
@@ -356,7 +388,10 @@ class ChannelCore {
   PathProgress progress_;
   std::uint32_t tool_ = 0;        // in the spindle
   std::uint64_t tool_since_ = 0;  // cycle from which on the drive's snapshot knows of it
+  program_execution::TapInHole tap_;
   double spindle_programmed_ = 0;
+  // As they were when the program started; nothing in a process that has not started it.
+  std::optional<std::uint16_t> homed_at_start_;
   // As they were when the program started: a restart interprets it again with the same.
   std::unique_ptr<language::VariableStore> variables_ = std::make_unique<language::VariableStore>();
   bool variables_news_ = false;

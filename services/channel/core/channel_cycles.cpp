@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves that are more than a path: those a skip input ends, and those a spindle follows.
+// Moves that are more than a path: those a skip input ends, those a spindle follows, and those that follow
+// one. Values of spindles, behind a wait.
 #include "channel_core.hpp"
+#include "machine/alarm_constants.hpp"
+#include "machine/axes.hpp"
 
 namespace trunnion::channel {
 
@@ -24,24 +27,115 @@ void ChannelCore::finish_skip() {
   flow().skip_ended(result);
 }
 
+// As a skip move: nothing is read ahead, and the wait lets time pass in a loop that does nothing else.
+void ChannelCore::begin_read(const language::Command& command) {
+  const auto number = command.number;
+  if (flow().push_pending() != FlowState::alarm) read_.begin(number);
+}
+
+bool ChannelCore::finish_read() {
+  if (!read_.value()) return false;
+  const auto value = *read_.value();
+  read_.end();
+  flow().value_read(value);
+  return true;
+}
+
 void ChannelCore::begin_tapping() {
   const auto& spindle = machine_.tapping_spindle(flow().pending().number);
   if (!spindle.axis) {
     flow().refuse_pending(language::AlarmNumber::tapping_spindle_missing);
     return;
   }
-  tapping_.begin(path().position(), flow().pending());
+  const auto& stroke = flow().pending();
+  const auto from = path().machine_position(), to = path().machine_of(stroke.target);
+  if (stroke.out && tap_.contradicts(from, to, stroke.value)) {
+    flow().refuse_pending(language::AlarmNumber::tap_removal_thread);
+    return;
+  }
+  if (!stroke.out) tap_ = program_execution::TapInHole::of(stroke.value, from, to);
+  tapping_.begin(path().position(), stroke);
   path().trajectory().set_limits(tapping_.limits(manual_.path_limits(), spindle.acceleration));
   path().restart();
   flow().set_tapping(true);
 }
 
+// The override of the spindle is that of the path it is coupled to.
+double ChannelCore::tapping_override() const {
+  return Tapping::override_of(switches_.spindle_override, flow().tap_speed(),
+                              machine_.tapping_spindle(tapping_.axis()).highest_speed);
+}
+
 void ChannelCore::finish_tapping() {
   if (!tapping_.active()) return;
+  if (!(tap_.depth(path().machine_position()) > 0)) tap_ = {};
   tapping_.end();
   flow().set_tapping(false);
   path().trajectory().set_limits(manual_.path_limits());
   path().restart();
+}
+
+// The axes are at rest. A thread may go on in the next blocks, which have to be read first.
+void ChannelCore::begin_thread() {
+  thread_.collect();
+  flow().set_threading(true);
+}
+
+void ChannelCore::cut_thread() {
+  if (flow().legs().empty()) return;
+  const auto& modal = flow().executing();
+  const auto& settings = machine_.stream(virtual_time_);
+  ThreadSpindle spindle;
+  const auto number = machine_.tapping_spindle().axis.value_or(0);
+  for (const auto& one : machine::spindles(*parameters_)) {
+    if (one.number == number) break;
+    ++spindle.column;
+  }
+  spindle.speed = modal.spindle_speed;
+  spindle.clockwise = modal.spindle_direction == language::SpindleDirection::cw;
+  spindle.cycle_seconds = machine_.cycle_seconds();
+  spindle.lead = settings.lead;
+  spindle.batch = settings.feedback_batch;
+  const auto fault = thread_.begin(path().position(), flow().legs(), manual_.path_limits(), spindle);
+  if (fault == ThreadPath::Fault::none) return;
+  const auto leg = thread_.path().faulty_leg();
+  thread_.end();
+  flow().refuse_thread(language::AlarmNumber::thread_too_short, leg);
+  flow().set_threading(false);
+}
+
+StreamCycle ChannelCore::step_thread(std::uint64_t cycle) {
+  const bool whole = thread_.broken().empty();
+  const auto now = thread_.step(cycle, states_.abandoned(), states_.feed_hold());
+  const auto& leg = thread_.path().leg(now.leg);
+  if (whole && !thread_.broken().empty())
+    event(alarm::thread_broken,
+          program_name() + ":" + std::to_string(leg.line) + ": " + thread_.broken() + ". Retract the tool");
+  if (thread_.following()) progress_.point = {leg.sequence, leg.line, now.fraction};
+  const auto* suspended = states_.suspended();
+  StreamCycle out;
+  out.shown.line = suspended != nullptr ? suspended->progress.executed.line : leg.line;
+  out.shown.feed = now.speed;
+  for (std::size_t i = 0; i < now.position.size(); ++i)
+    out.shown.distance_to_go[i] = leg.target[i] - now.position[i];
+  out.shown.position = now.position;
+  out.shown.sequence = leg.sequence;
+  out.setpoint = now.position;
+  if (in_machine_coordinates()) add_offset(out, path().machine_of(now.position));
+  out.line = leg.line;
+  out.spindle = now.angle;
+  out.at_rest = now.at_rest;
+  out.may_end = manual_.offset_at_rest();
+  return out;
+}
+
+void ChannelCore::finish_thread() {
+  if (!thread_.active()) return;
+  const bool cut = thread_.cutting();
+  const auto position = thread_.position();
+  thread_.end();
+  flow().set_threading(false);
+  if (cut) path().start(position, path().transformation(), path().tool_length());
 }
 
 }  // namespace trunnion::channel

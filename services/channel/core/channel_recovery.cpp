@@ -12,6 +12,8 @@ void ChannelCore::on_feedback(const idl::stream::Feedback& feedback) {
   link.on_feedback(feedback);
   skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
   exact_stop_.on_feedback(feedback);
+  thread_.on_feedback(feedback);
+  if (read_.active()) read_.on_feedback(feedback, motion_at_rest() && link.executed() >= link.next());
   remember_executed();
   if (first) handshake_.continue_numbers(link.epoch()), cycle_call_.continue_numbers(link.epoch());
   const auto mode = link.drive_mode();
@@ -36,7 +38,7 @@ void ChannelCore::follow_cut() {
   if (!own || !own->running || own->crc != selected().crc32) return;
   restart_ = RestartPoint{own->sequence, own->fraction, own->position};
   progress_.executed.line = own->line;
-  if (own->skips.size() > program_flow_.skips().size()) program_flow_.set_skips(std::move(own->skips));
+  if (goes_farther(own->skips, program_flow_.skips())) program_flow_.set_skips(std::move(own->skips));
 }
 
 void ChannelCore::interrupt(const std::string& why) {
@@ -102,8 +104,9 @@ void ChannelCore::recover() {
   states_.begin_interrupted();
   interrupted_ = {};
   progress_.executed.line = own->line;
-  event(alarm::interrupted,
-        "Program " + selected().name + " was interrupted in line " + std::to_string(own->line));
+  event(alarm::interrupted, "Program " + selected().name + " was interrupted in line " +
+                                std::to_string(own->line) +
+                                (own->in_thread ? ", in a thread: retract the tool and reset" : ""));
 }
 
 // After a power failure only the line is known: the operator decides whether to start from it.

@@ -2,7 +2,9 @@
 // What a program asks of the rest of the control while the axes are at rest: the PLC, the tables, the
 // operator, the services that carry out cycles.
 #include <algorithm>
+#include <cmath>
 
+#include "canonical/turning_speed.hpp"
 #include "channel_core.hpp"
 #include "language/codes.hpp"
 #include "machine/alarm_constants.hpp"
@@ -36,6 +38,16 @@ CycleRequest cycle_request(const language::Command& command, const ProgramFlow& 
 
 // The axes are at rest and the drive has executed everything: what stopped the flow is handled now.
 void ChannelCore::run_pending(FlowState state) {
+  if (thread_.collecting() && state != FlowState::alarm) {
+    cut_thread();
+    return;
+  }
+  if (thread_.cutting()) {
+    const bool broken = !thread_.broken().empty();
+    finish_thread();
+    if (broken) finish(false);
+    return;
+  }
   if (tapping_.active() && state != FlowState::block_end) {
     finish_tapping();
     return;
@@ -93,8 +105,20 @@ void ChannelCore::execute(const language::Command& command) {
     case language::CommandKind::skip:
       begin_skip();
       return;
+    case language::CommandKind::read:
+      begin_read(command);
+      return;
+    case language::CommandKind::spindle_order:
+      begin_auxiliary({AuxiliaryKind::E, command.number, command.value, true});
+      return;
     case language::CommandKind::tap:
       begin_tapping();
+      return;
+    case language::CommandKind::home:
+      begin_program_homing(command);
+      return;
+    case language::CommandKind::thread:
+      begin_thread();
       return;
     case language::CommandKind::table:
       change_table(command);
@@ -104,24 +128,29 @@ void ChannelCore::execute(const language::Command& command) {
       begin_cycle(command);
       return;
     case language::CommandKind::message:
-      event(alarm::program_message, program_name() + ":" + std::to_string(command.line) + ": message " +
-                                        std::to_string(command.number) + ", see the comment of the line");
+      event(alarm::program_message,
+            program_name() + ":" + std::to_string(command.line) +
+                (command.number == language::line_message
+                     ? ": see the text behind $ of the line"
+                     : ": message " + std::to_string(command.number) + ", see the comment of the line"));
       flow().finish_pending();
       return;
     case language::CommandKind::tool:
-      begin_auxiliary({AuxiliaryKind::T, command.number, 0});
+      begin_auxiliary({AuxiliaryKind::T, command.number, 0, false});
       return;
     case language::CommandKind::spindle_speed:
-      begin_auxiliary({AuxiliaryKind::S, 0, command.value});
+      begin_auxiliary({AuxiliaryKind::S, 0, command.value, false,
+                       command.modal.spindle_mode == language::SpindleMode::surface,
+                       command.modal.spindle_limit, 0});
       return;
     case language::CommandKind::auxiliary:
       if (command.number == optional_stop && !switches_.optional_stop)
         flow().finish_pending();
       else
-        begin_auxiliary({AuxiliaryKind::M, command.number, 0});
+        begin_auxiliary({AuxiliaryKind::M, command.number, command.value, command.has_value});
       return;
     case language::CommandKind::end:
-      begin_auxiliary({AuxiliaryKind::M, command.number, 0});
+      begin_auxiliary({AuxiliaryKind::M, command.number, 0, false});
       return;
     default:
       flow().finish_pending();
@@ -129,7 +158,13 @@ void ChannelCore::execute(const language::Command& command) {
   }
 }
 
-void ChannelCore::begin_auxiliary(const program_execution::AuxiliaryFunction& function) {
+// At standstill: until the setpoints tell it, the radius of a surface speed is that of the position.
+void ChannelCore::begin_auxiliary(program_execution::AuxiliaryFunction function) {
+  if (function.surface) {
+    const auto frame = executed_frame(executed_modal());
+    function.limit = canonical::lower_limit(function.limit, machine_.highest_spindle_speed());
+    function.radius = std::abs(path().position()[language::X] - frame.total_offset()[language::X]);
+  }
   if (function.kind == AuxiliaryKind::S) spindle_programmed_ = function.value;
   handshake_.begin(function, link().executed());
   states_.wait();

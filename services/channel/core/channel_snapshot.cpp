@@ -91,6 +91,8 @@ void store(const ChannelSnapshot& s, const std::vector<SkipResult>& skips,
   out.dry_run = s.dry_run;
   out.auxiliary_lock = s.auxiliary_lock;
   out.block_skip = s.block_skip;
+  out.in_thread = s.in_thread;
+  out.thread_origin = s.thread_origin;
   store_skips(skips, out);
 }
 
@@ -113,6 +115,8 @@ std::optional<ChannelSnapshot> snapshot_of(const idl::stream::ChannelSnapshot& s
   s.dry_run = stored.dry_run;
   s.auxiliary_lock = stored.auxiliary_lock;
   s.block_skip = stored.block_skip;
+  s.in_thread = stored.in_thread;
+  s.thread_origin = stored.thread_origin;
   s.skips = skips_of(stored);
   return s;
 }

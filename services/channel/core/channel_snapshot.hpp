@@ -29,6 +29,8 @@ struct ChannelSnapshot {
   AxisValues offset{};  ///< of the handwheel, added to the path in machine coordinates
   bool dry_run = false, auxiliary_lock = false;
   std::uint16_t block_skip = 0;
+  bool in_thread = false;         ///< the command follows the spindle
+  double thread_origin = 0;       ///< of the thread, rev
   std::vector<SkipResult> skips;  ///< results of the program's skip moves so far
 };
 

@@ -11,8 +11,10 @@ namespace trunnion::channel {
 void ChannelCore::configure_flow(ProgramFlow& flow) {
   hold_guarded_axes();
   flow.set_block_skip(switches_.block_skip);
+  flow.set_coupled_threads(!switches_.dry_run && !switches_.auxiliary_lock && !lock_.any());
   flow.set_dry_run_feed(switches_.dry_run ? machine_.dry_run_feed() : 0);
   flow.set_offset(manual_.offset_target());
+  tell_references();
   stream_.forget_blocks();
   progress_.executed.sequence = progress_.reached = 0;
 }
@@ -27,12 +29,16 @@ Answer ChannelCore::start_program(const Entry& entry) {
   apply_parameters();
   adopt_position();
   skip_.end();
+  read_.end();
   finish_tapping();
+  finish_thread();
   auto& text = program_cache_.open(selected());
   if (restart.sequence == 0) program_start_ = machine_start_;
   program_path_.start(machine_start_);
   mdi_.forget_frames();
   configure_flow(program_flow_);
+  if (restart.sequence == 0) homed_at_start_ = homed_axes();
+  program_flow_.set_homed(homed_at_start_);
   program_flow_.start(program_path_.trajectory(), text, program_start_, power_on_modal(), *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   interrupted_ = {};
@@ -68,7 +74,7 @@ Answer ChannelCore::start_mdi(const idl::channel::ChannelRequest& request) {
   if (mode_ != Mode::MDI) return refuse(alarm::request_invalid, "An MDI line needs mode MDI");
   if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
   if (auto refusal = interlock_.start()) return refuse(std::move(*refusal));
-  if (auto answer = startable(); !answer.accepted) return answer;
+  if (auto answer = operable(); !answer.accepted) return answer;  // the line may home the axes
   apply_parameters();
   adopt_position();
   mdi_.enter(request);
@@ -81,6 +87,7 @@ Answer ChannelCore::start_mdi(const idl::channel::ChannelRequest& request) {
   manual_path_.start(position, modal.transformation, modal.tool_length);
   auto& flow = mdi_.flow();
   configure_flow(flow);
+  flow.set_homed(homed_axes());
   mdi_.start(manual_path_.trajectory(), position,
              states_.suspended() != nullptr ? program_flow_.variables() : *variables_);
   // What is wrong with the line is the answer to the operator who typed it.

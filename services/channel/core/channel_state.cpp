@@ -17,10 +17,15 @@ std::string in_words(std::uint64_t lines) {
 }  // namespace
 
 std::string ChannelCore::detail() const {
-  if (homing_.active()) return homing_.detail(machine_.channel_axes(), switches_.feed_override > 0);
+  if (homing_.active()) {
+    auto text = homing_.detail(machine_.channel_axes(), link(), switches_.feed_override > 0);
+    if (const auto done = program_homing_.done_letters(); !done.empty()) text += "; homed: " + done;
+    return text;
+  }
   const bool running = states_.advances(), held = states_.in<Held>();
   const auto* preparing = states_.preparing();
   const auto& executed = progress_.executed;
+  if (held && program_homing_.under_way()) return "cycle start: homing of " + program_homing_.letters_left();
   if (preparing != nullptr && held) return "cycle start: " + words_of(preparing->preparation, machine_start_);
   if (loops())
     return "line " + std::to_string(flow().main_line()) + ": " + in_words(flow().lines_without_motion()) +
@@ -32,7 +37,9 @@ std::string ChannelCore::detail() const {
   if (cycle_call_.open()) return "waits for the measurement of the kinematics";
   if (waits_for_text()) return "waiting for the text of the program";
   if (running && preparing != nullptr && preparing->approaching) return "approaching the program";
-  if (running && states_.interpreting() &&
+  if (running && tap_stopped())
+    return "the PLC has stopped the tap: it continues when the PLC lets it; reset leaves it where it is";
+  if (running && states_.interpreting() && !tapping_.active() &&
       (executed.rapid ? switches_.rapid_override : switches_.feed_override) == 0)
     return executed.rapid ? "the rapid override is 0 %" : "the feed override is 0 %";
   if (held && states_.retracing()) return "gone back as far as the path is kept; cycle start: forwards";

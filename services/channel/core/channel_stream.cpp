@@ -26,7 +26,7 @@ void ChannelCore::hold() {
 FlowState ChannelCore::fill() {
   auto* running = states_.running();
   if (running == nullptr || !states_.interpreting() || states_.abandoned() || running->retracing ||
-      skip_.active())
+      skip_.active() || read_.active() || thread_.cutting())
     return FlowState::full;
   flow().set_cycle(link().next());
   path().trajectory().set_position_check(tapping_.active() ? 0 : exact_stop_.cycles());
@@ -37,6 +37,7 @@ FlowState ChannelCore::fill() {
 }
 
 bool ChannelCore::motion_at_rest() const {
+  if (thread_.cutting()) return thread_.ended() && manual_.offset_at_rest();
   const bool path_at_rest =
       states_.is(Activity::handwheel) ? manual_.wheel_at_rest() : path().trajectory().at_rest();
   return path_at_rest && manual_.offset_at_rest();
@@ -45,6 +46,7 @@ bool ChannelCore::motion_at_rest() const {
 void ChannelCore::advance() {
   if (!configured()) return;
   advance_homing();
+  advance_program_homing();
   apply_parameters();
   if (!states_.busy() || !stream_.idle()) return;
   if (states_.in<Holding>()) {  // the motion has stopped and was executed
@@ -77,10 +79,13 @@ void ChannelCore::advance() {
       finish(false);
       return;
     }
-    if (skip_.active())
+    if (skip_.active()) {
       finish_skip();
-    else
+    } else if (read_.active()) {
+      if (!finish_read()) return;
+    } else {
       run_pending(state);
+    }
     if (state == FlowState::loop) return;
   }
 }
@@ -107,6 +112,7 @@ void ChannelCore::check_exact_stop(std::uint64_t cycle) {
 
 // One cycle: the path, or the handwheel in its place; then what is added to it and which axes are locked.
 StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
+  if (thread_.cutting()) return step_thread(cycle);
   auto& trajectory = path().trajectory();
   if (skip_.active()) skip_.moves_from(cycle);
   if (skip_.active() && skip_.brakes_in(cycle, machine_.lead())) trajectory.abort();
@@ -118,8 +124,8 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
     setpoint.at_rest = manual_.wheel_at_rest();
   } else {
     check_exact_stop(cycle);
-    setpoint =
-        trajectory.step(tapping_.active() ? 1 : switches_.feed_override, switches_.rapid_override, braking());
+    setpoint = trajectory.step(tapping_.active() ? tapping_override() : switches_.feed_override,
+                               switches_.rapid_override, braking() || tap_stopped());
     progress_.point = {setpoint.sequence, setpoint.line, setpoint.fraction};
     if (states_.in<Running>() && states_.retracing() && trajectory.retraced_to_start()) hold();
   }
@@ -132,14 +138,13 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
   out.shown.rapid = setpoint.rapid;
   out.shown.sequence = setpoint.sequence;
   out.setpoint = setpoint.position;
-  if (in_machine_coordinates()) {
-    out.shown.machine = by_hand ? setpoint.position : path().machine_of(setpoint.position);
-    out.setpoint = lock_.hold(out.shown.machine);
-    const auto& offset = manual_.step_offset();
-    for (std::size_t i = 0; i < out.setpoint.size(); ++i) out.setpoint[i] += offset[i];
-  }
+  if (in_machine_coordinates())
+    add_offset(out, by_hand ? setpoint.position : path().machine_of(setpoint.position));
   out.line = setpoint.line;
   if (tapping_.active()) out.spindle = tapping_.revolutions(setpoint.position);
+  // Moved by hand, or to the program, axes leave the spindle as it is.
+  if (states_.interpreting() && (states_.is(Activity::mdi) || on_program_path()))
+    out.radius = flow().turning_radius(setpoint.sequence, setpoint.position);
   out.stopped = setpoint.path_speed == 0;
   out.at_rest = setpoint.at_rest;
   out.holding = braking();
@@ -147,11 +152,18 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
   return out;
 }
 
+void ChannelCore::add_offset(StreamCycle& out, const AxisValues& machine) {
+  out.shown.machine = machine;
+  out.setpoint = lock_.hold(machine);
+  const auto& offset = manual_.step_offset();
+  for (std::size_t i = 0; i < out.setpoint.size(); ++i) out.setpoint[i] += offset[i];
+}
+
 // Cycle n must not be computed before the drive has executed cycle n - lead - 1. An operator who moves axes
 // by hand watches them, so these do not run far ahead either.
 bool ChannelCore::uses_feedback() const {
   const bool by_hand = !states_.is(Activity::program) && !states_.is(Activity::mdi);
-  return by_hand || skip_.active() || exact_stop_.checking();
+  return by_hand || skip_.active() || thread_.cutting() || exact_stop_.checking();
 }
 
 bool ChannelCore::produce(idl::stream::PathBatch& out) {
@@ -161,6 +173,10 @@ bool ChannelCore::produce(idl::stream::PathBatch& out) {
   const std::uint32_t count = bound || machine_.has_gantry() ? settings.feedback_batch : settings.batch;
   if (!stream_.may_write(count, bound ? settings.lead : settings.ahead)) return false;
   stream_.open(out);
+  if (thread_.cutting()) {
+    if (link().starts()) thread_.stream_starts(link().next());
+    thread_.begin_batch(link().next(), states_.abandoned() || states_.feed_hold());
+  }
   auto flow = FlowState::full;
   while (out.count < count && !out.ends) {
     if (!braking() && !states_.abandoned()) {
@@ -175,6 +191,7 @@ bool ChannelCore::produce(idl::stream::PathBatch& out) {
   stream_.close(out, path(), in_machine_coordinates(), machine_.revision(),
                 machine_.tapping_spindle(tapping_.axis()).axis.value_or(0));
   out.skip_move = skip_.active();
+  out.follows_spindle = thread_.cutting() && !out.spindle.empty();
   store_state(flow, out.snapshot);
   out.snapshot.cycle = out.first + out.count - 1;
   stream_.written(out);
@@ -203,9 +220,11 @@ void ChannelCore::store_state(FlowState state, idl::stream::ChannelSnapshot& out
     point = suspended->progress.point;
     path = &program_path_;
   }
+  s.in_thread = thread_.following();
+  s.thread_origin = s.in_thread ? thread_.path().origin() : 0;
   s.transformation = path->transformation();
   s.tool_length = path->tool_length();
-  s.position = path->position();
+  s.position = thread_.cutting() && states_.suspended() == nullptr ? thread_.position() : path->position();
   if (restart_) {
     s.running = true;
     point = {restart_->sequence, point.line, restart_->fraction};

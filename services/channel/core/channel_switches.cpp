@@ -89,8 +89,8 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
   if (!by_hand && !manual_.offset_on())
     return refuse(alarm::request_invalid, "The handwheel needs mode JOG, or its offset switched on");
   const bool turning = states_.is(Activity::handwheel);
-  const bool in_motion =
-      !by_hand && states_.interpreting() && states_.advances() && !tapping_.active() && !skip_.active();
+  const bool in_motion = !by_hand && states_.interpreting() && states_.advances() && !tapping_.active() &&
+                         !thread_.active() && !skip_.active() && !read_.active();
   if (states_.busy() && !turning && !in_motion)
     return refuse(alarm::request_invalid,
                   "The channel is busy: the handwheel waits for its motion to end or continue");
@@ -132,7 +132,8 @@ Answer ChannelCore::retrace(bool on) {
     return {};
   }
   const bool program = states_.is(Activity::program) && states_.running() != nullptr && !restart_ &&
-                       !program_flow_.searching() && !tapping_.active() && !skip_.active();
+                       !program_flow_.searching() && !tapping_.active() && !thread_.active() &&
+                       !skip_.active() && !read_.active() && !program_homing_.under_way();
   if (!program || (!states_.in<Running>() && !states_.in<Held>()))
     return refuse(alarm::request_invalid, "Only a program that runs or is held can be retraced");
   if (auto refusal = interlock_.start()) return refuse(std::move(*refusal));

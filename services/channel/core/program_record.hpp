@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "program_execution/tap_in_hole.hpp"
+
 namespace trunnion::channel {
 
 /// A program that was left, and where.
@@ -28,13 +30,14 @@ struct RunningProgram : LeftProgram {
   std::uint32_t parts = 0;       ///< machined since the count was set
   std::uint32_t tool = 0;        ///< in the spindle
   std::uint64_t tool_since = 0;  ///< cycle from which on the drive's snapshot knows of it
+  program_execution::TapInHole tap = {};
   bool operator==(const RunningProgram&) const = default;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     LeftProgram::fields(self, visit);
     visit("ended", self.ended), visit("parts", self.parts), visit("tool", self.tool);
-    visit("tool_since", self.tool_since);
+    visit("tool_since", self.tool_since), visit("tap", self.tap);
   }
 };
 

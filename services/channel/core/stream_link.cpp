@@ -24,6 +24,7 @@ void StreamLink::on_feedback(const idl::stream::Feedback& feedback) {
     if (echo.channel != channel_) continue;
     echo_active_ = echo.active;
     drive_epoch_ = echo.epoch;
+    search_ = echo.search;
     const bool forgotten = echo.request < answered_;
     drive_restarted_ = drive_restarted_ || forgotten;
     answered_ = echo.request;
@@ -63,7 +64,7 @@ void StreamLink::on_feedback(const idl::stream::Feedback& feedback) {
 
 void StreamLink::request(StreamRequestKind kind) {
   asked_ = true;
-  outgoing_ = {channel_, ++request_, kind, epoch_, 0};
+  outgoing_ = {channel_, ++request_, kind, epoch_, 0, 0};
 }
 
 void StreamLink::request_start() {
@@ -72,9 +73,9 @@ void StreamLink::request_start() {
   request(new_epoch_ ? StreamRequestKind::NEW_EPOCH : StreamRequestKind::START);
 }
 
-void StreamLink::request_homing(std::uint16_t axis) {
+void StreamLink::request_homing(std::uint16_t axis, double speed) {
   asked_ = new_epoch_ = homing_ = true;
-  outgoing_ = {channel_, ++request_, StreamRequestKind::HOME, epoch_, axis};
+  outgoing_ = {channel_, ++request_, StreamRequestKind::HOME, epoch_, axis, speed};
 }
 
 void StreamLink::request_resume() {

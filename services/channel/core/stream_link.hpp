@@ -28,10 +28,12 @@ class StreamLink {
   /// Asks for a place; with a new epoch when the drive's position is where the stream must begin.
   void request_start();
   /// Demands that the drive searches the home switch of an axis, by its logical number; the next start is a
-  /// new epoch.
-  void request_homing(std::uint16_t axis);
+  /// new epoch. `speed` mm/s or deg/s, 0 = the axis' own.
+  void request_homing(std::uint16_t axis, double speed);
   /// It has been demanded, or ended by leave(), and the drive may still move the axis.
   bool homing() const { return homing_; }
+  /// Of the newest that the drive has answered.
+  idl::stream::ReferenceSearch search() const { return search_; }
   /// A hold of the drive is over.
   void request_resume();
   /// What was written and not executed is void, and a search for a reference ends; the next start is a new
@@ -98,9 +100,10 @@ class StreamLink {
   std::uint64_t next_ = 0, executed_ = 0, tick_ = 0;
   std::uint32_t epoch_ = 0, request_ = 0, answered_ = 0;
   bool new_epoch_ = true, starts_ = false, echo_active_ = false, resuming_ = false, drive_restarted_ = false,
-       asked_ = false;             // the drive, by this process
-  bool homing_ = false;            // no field: it is at rest in no snapshot
-  std::uint32_t drive_epoch_ = 0;  // no field: feedback tells it
+       asked_ = false;                     // the drive, by this process
+  bool homing_ = false;                    // no field: it is at rest in no snapshot
+  idl::stream::ReferenceSearch search_{};  // no field: feedback tells it
+  std::uint32_t drive_epoch_ = 0;          // no field: feedback tells it
   idl::stream::ChannelSnapshot snapshot_;
   std::vector<idl::stream::StageState> states_;
   std::vector<double> positions_;

@@ -26,6 +26,7 @@ void StreamWriter::open(idl::stream::PathBatch& batch) const {
   batch.setpoints.clear();
   batch.lines.clear();
   batch.spindle.clear();
+  batch.turning_radius.clear();
   batch.ends = false;
   batch.count = 0;
 }
@@ -38,6 +39,11 @@ void StreamWriter::add(idl::stream::PathBatch& batch, const StreamCycle& cycle) 
   batch.setpoints.insert(batch.setpoints.end(), cycle.setpoint.begin(), cycle.setpoint.end());
   batch.lines.push_back(cycle.line);
   if (cycle.spindle) batch.spindle.push_back(*cycle.spindle);
+  // Of each setpoint or none: one without has that of its neighbour.
+  if (cycle.radius)
+    batch.turning_radius.resize(batch.count + 1, *cycle.radius);
+  else if (!batch.turning_radius.empty())
+    batch.turning_radius.push_back(batch.turning_radius.back());
   ++batch.count;
   equal_cycles_ = cycle.stopped && cycle.setpoint == last_setpoint_ ? equal_cycles_ + 1 : 0;
   last_setpoint_ = cycle.setpoint;

@@ -18,6 +18,7 @@ struct StreamCycle {
   AxisValues setpoint{};
   std::uint32_t line = 0;         ///< of the program
   std::optional<double> spindle;  ///< revolutions of a coupled spindle
+  std::optional<double> radius;   ///< mm, with a constant surface speed
   bool stopped = false;           ///< the path speed is 0
   bool at_rest = false;           ///< the path has come to its end
   bool holding = false;           ///< the path brakes for a hold

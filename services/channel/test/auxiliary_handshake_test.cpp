@@ -21,6 +21,10 @@ TEST(AuxiliaryHandshake, NamesTheOpenFunctionAsAProgramWritesIt) {
   handshake.begin({AuxiliaryKind::T, 12, 0}, 1);
   EXPECT_EQ(handshake.function(), "T12");
   handshake.cancel();
+  handshake.begin({AuxiliaryKind::E, 94125, 24, true}, 1);
+  EXPECT_EQ(handshake.function(), "E94125");
+  handshake.begin({AuxiliaryKind::E, 0, 90, true}, 1);
+  EXPECT_EQ(handshake.function(), "EC");
   handshake.begin({AuxiliaryKind::S, 0, 2500}, 1);
   EXPECT_EQ(handshake.function(), "S2500");
 }
@@ -44,6 +48,29 @@ TEST(AuxiliaryHandshake, RaisesTheStrobeAndLowersItWhenThePlcHasDoneExactlyThisF
   EXPECT_EQ(lowered->kind, AuxiliaryKind::NO_AUXILIARY);
   EXPECT_EQ(lowered->number, raised->number);
   EXPECT_EQ(handshake.finish(done(raised->number)), Outcome::not_open) << "a second answer is stale";
+}
+
+TEST(AuxiliaryHandshake, CarriesTheAngleOfM19) {
+  AuxiliaryHandshake handshake(0);
+  handshake.begin({AuxiliaryKind::M, 19, 90, true}, 7);
+  const auto raised = handshake.take_request();
+  ASSERT_TRUE(raised);
+  EXPECT_TRUE(raised->has_value);
+  EXPECT_EQ(raised->value, 90);
+  EXPECT_EQ(raised->cycle, 7u);
+  EXPECT_EQ(handshake.function(), "M19");
+}
+
+TEST(AuxiliaryHandshake, CarriesASurfaceSpeedWithItsLimitAndTheRadius) {
+  AuxiliaryHandshake handshake(0);
+  handshake.begin({AuxiliaryKind::S, 0, 200, false, true, 3000, 40}, 7);
+  const auto raised = handshake.take_request();
+  ASSERT_TRUE(raised);
+  EXPECT_TRUE(raised->surface);
+  EXPECT_EQ(raised->value, 200);
+  EXPECT_EQ(raised->limit, 3000);
+  EXPECT_EQ(raised->radius, 40);
+  EXPECT_FALSE(raised->has_value);
 }
 
 TEST(AuxiliaryHandshake, CountsFunctionsAndContinuesBehindThoseOfTheProcessBefore) {

@@ -38,6 +38,13 @@ class FakeDrive {
       mode = DriveMode::FOLLOWING;
     }
   }
+  /// It finds `axis` at `position`, or it does not.
+  void end_search(bool found, std::size_t axis = 0, double position = 0) {
+    mode = DriveMode::FOLLOWING;
+    echo_.search =
+        found ? idl::stream::ReferenceSearch::REFERENCE_FOUND : idl::stream::ReferenceSearch::SEARCH_FAILED;
+    if (found) position_[axis] = position;
+  }
   void put(const idl::stream::PathBatch& batch) { queue_.push_back(batch); }
   /// A skip input that axis `axis` switches on where it passes `position` upwards.
   struct Switch {
@@ -48,6 +55,10 @@ class FakeDrive {
   std::optional<Switch> switch_;
   /// Following error of the first axis in a cycle, mm; empty: the axes follow without error.
   std::function<double(std::uint64_t cycle, const std::vector<double>& row)> lag;
+  /// Angle of the encoder of a spindle in a cycle, rev; empty: there is none.
+  std::function<double(std::uint64_t cycle)> spindle_angle;
+  /// States of the spindles when all cycles below `next` are executed; empty: the machine has none.
+  std::function<std::vector<idl::stream::SpindleState>(std::uint64_t next)> spindle_states;
   /// Executes batches, at most `cycles` setpoints' worth, and reports.
   idl::stream::Feedback run(std::uint64_t cycles = ~0ull) {
     std::uint64_t done = 0;
@@ -63,11 +74,14 @@ class FakeDrive {
           rows.push_back({f.setpoints.begin() + 9 * i, f.setpoints.begin() + 9 * (i + 1)});
           look_at_switch();
           spindle.push_back(f.spindle.empty() ? std::nullopt : std::optional(f.spindle[i]));
+          radius.push_back(f.turning_radius.empty() ? std::nullopt : std::optional(f.turning_radius[i]));
           feedback.commanded.insert(feedback.commanded.end(), rows.back().begin(),
                                     rows.back().begin() + static_cast<long>(position_.size()));
           for (std::size_t a = 0; a < position_.size(); ++a)
             actual_.push_back(rows.back()[a] - (a == 0 && lag ? lag(f.first + i, rows.back()) : 0));
           lines.push_back(f.lines[i]);
+          follows.push_back(f.follows_spindle);
+          if (spindle_angle) feedback.spindle_angle.push_back(spindle_angle(f.first + i));
         }
         for (std::size_t a = 0; a < position_.size(); ++a) position_[a] = rows.back()[a];
         next = f.first + f.count;
@@ -83,6 +97,8 @@ class FakeDrive {
     std::copy(actual_.end() - static_cast<long>(feedback.actual.size()), actual_.end(),
               feedback.actual.begin());
     feedback.first = next - feedback.count;
+    if (spindle_angle) feedback.spindle_speed = {0.0};
+    if (spindle_states) feedback.spindles = spindle_states(next);
     feedback.mode = mode;
     feedback.tick = tick += done;
     feedback.axis_count = static_cast<std::uint16_t>(position_.size());
@@ -108,6 +124,8 @@ class FakeDrive {
   std::vector<std::vector<double>> rows;
   std::vector<std::uint32_t> lines;
   std::vector<std::optional<double>> spindle;  // of each row, when one was coupled
+  std::vector<bool> follows;  // of each row: the drive goes to the place of the measured angle
+  std::vector<std::optional<double>> radius;  // of each row, with a constant surface speed
 
  private:
   // The axes follow without error: what a cycle commands is reached before the next one.

@@ -50,12 +50,10 @@ TEST_F(HomedAxis, WithoutItsReferenceNothingStartsButItsSearch) {
     EXPECT_EQ(answer.reason, "Axes without a reference: Y, Z. Mode REF, then reference return of each");
   };
   refused(reference(0));  // an absolute encoder: the axis would move to its reference coordinate
-  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
-  refused(ask(CommandKind::MDI_LINE, "G53 G0 X5"));
   ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG);
   refused(ask(CommandKind::JOG_AXIS, "", 600, 1, Mode::JOG, 0));
   load("G0 X1\nM30\n");
-  refused(ask(CommandKind::CYCLE_START));
+  refused(ask(CommandKind::START_FROM_LINE, "", 1));
   ask(CommandKind::SET_MODE, "", 0, 0, Mode::REF);
   EXPECT_TRUE(reference(1).accepted);
 }

@@ -10,6 +10,9 @@ TEST(ProgramRecord, ComesBackAsItWas) {
   const RunningProgram program{
       {"part 7.nc", 12, 0xfffffffeu, 3000000000u}, 1ull << 40, 4000000000u, 4000000001u, 1ull << 41};
   EXPECT_EQ(read_record(write_record(program), "f"), program);
+  RunningProgram tapping = program;
+  tapping.tap = {-1.25, {10, 0, 2}, {0, 0, -1}};
+  EXPECT_EQ(read_record(write_record(tapping), "f"), tapping);
   EXPECT_EQ(read_record(write_record({}), "f"), RunningProgram{});
 }
 

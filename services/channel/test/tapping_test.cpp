@@ -100,6 +100,81 @@ TEST_F(Tap, TheFeedOverrideDoesNotActInTheThreadButElsewhere) {
   EXPECT_GT(drive.rows.size(), rows);
 }
 
+/// The highest speed of the spindle in `rows` of coupled(), 1/min: a cycle is 1 ms.
+double highest_speed(const std::vector<std::pair<double, double>>& rows) {
+  double highest = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    highest = std::max(highest, std::abs(rows[i].second - rows[i - 1].second) * 60000);
+  return highest;
+}
+
+TEST_F(Tap, TheSpindleOverrideActsOnBothAndTheyKeepTheLead) {
+  for (const double override_ : {0.5, 1.25}) {
+    drive = testing::FakeDrive(3);
+    begin();
+    load(hole);
+    ask(CommandKind::SPINDLE_OVERRIDE, "", override_);
+    ask(CommandKind::CYCLE_START);
+    run();
+    const auto rows = coupled();
+    for (const auto& [z, turns] : rows) ASSERT_NEAR(2 - z, 1.25 * turns, 1e-9);
+    EXPECT_NEAR(highest_speed(rows), 400 * override_, 0.01) << "S400";
+    EXPECT_EQ(drive.rows.back()[2], 20);
+  }
+}
+
+TEST_F(Tap, AChangeOfTheSpindleOverrideInTheThreadActsAtOnceWithinTheAccelerationOfTheSpindle) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -2) round();
+  const auto before = coupled().size();
+  ask(CommandKind::SPINDLE_OVERRIDE, "", 0.5);
+  while (drive.rows.back()[2] > -8) round();
+  const auto rows = coupled();
+  const auto speed = [&](std::size_t i) { return (rows[i].second - rows[i - 1].second) * 60000; };
+  EXPECT_NEAR(speed(before - 1), 400, 0.01);
+  EXPECT_NEAR(speed(rows.size() - 1), 200, 0.01);
+  for (std::size_t i = 2; i < rows.size(); ++i)
+    ASSERT_LE(std::abs(speed(i) - speed(i - 1)), 2 * (1 + 1e-3)) << "2000 1/min in a second";
+}
+
+TEST_F(Tap, TheSpindleOverrideDoesNotTakeTheSpindleAboveItsHighestSpeed) {
+  parameters->values[105948] = {450, ""};
+  begin();
+  load(hole);
+  ask(CommandKind::SPINDLE_OVERRIDE, "", 1.5);
+  ask(CommandKind::CYCLE_START);
+  run();
+  EXPECT_NEAR(highest_speed(coupled()), 450, 0.01) << "and not 600";
+}
+
+TEST_F(Tap, ANumTapComesOutAtItsOwnSpeedAndTheSpindleTurnsAgainOrNot) {
+  parameters->values[40959] = {1, ""};
+  for (const bool stops : {false, true}) {
+    auxiliaries.clear();
+    drive = testing::FakeDrive(3);
+    begin();
+    // In at 200 1/min, out at 400; 12 mm at a lead of 1.25 mm are 9.6 turns.
+    start(std::string("S200 M3\nG84 Z-10 K1.25 EK2 EH2 ER5") + (stops ? " M5" : "") + "\nG0 Z20\nM2\n");
+    run();
+    EXPECT_EQ(core->run_state(), RunState::IDLE);
+    const auto rows = coupled();
+    ASSERT_FALSE(rows.empty());
+    double in = 0, out = 0, most = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const double speed = (rows[i].second - rows[i - 1].second) * 60000;
+      in = std::max(in, speed), out = std::max(out, -speed), most = std::max(most, rows[i].second);
+      ASSERT_NEAR(2 - rows[i].first, 1.25 * rows[i].second, 1e-9);
+    }
+    EXPECT_NEAR(in, 200, 0.01);
+    EXPECT_NEAR(out, 400, 0.01);
+    EXPECT_NEAR(most, 9.6, 1e-9);
+    EXPECT_NEAR(rows.back().second, 0, 1e-9);
+    EXPECT_EQ(drive.rows.back()[2], 20);
+    EXPECT_EQ(m_codes(), (stops ? std::vector<int>{3, 5, 5, 2} : std::vector<int>{3, 5, 3, 2}));
+  }
+}
+
 TEST_F(Tap, AFeedHoldActsOnlyWhenTheTapIsOutAgain) {
   cycles_per_round = 8;
   start(hole);
@@ -113,6 +188,112 @@ TEST_F(Tap, AFeedHoldActsOnlyWhenTheTapIsOutAgain) {
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   EXPECT_EQ(drive.rows.back()[2], 20);
+}
+
+TEST_F(Tap, AStopOfThePlcStopsSpindleAndAxisTogetherAndTheyContinueWhenItFalls) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  idl::plc::ChannelControl control;
+  control.tap_stop = true;
+  core->set_control(control);
+  // From 8.33 mm/s with 41.7 mm/s2: 0.2 s and 0.8 mm, and what was written ahead.
+  for (int i = 0; i < 200; ++i) round();
+  auto rows = coupled();
+  EXPECT_EQ(core->run_state(), RunState::RUNNING);
+  EXPECT_EQ(core->state().detail,
+            "the PLC has stopped the tap: it continues when the PLC lets it; reset leaves it where it is");
+  EXPECT_EQ(rows.back(), rows[rows.size() - 100]);
+  EXPECT_LT(rows.back().first, -5);
+  EXPECT_GT(rows.back().first, -8);
+  control.tap_stop = false;
+  core->set_control(control);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[2], 20);
+  rows = coupled();
+  double most = 0;
+  for (const auto& [z, turns] : rows) {
+    ASSERT_NEAR(2 - z, 1.25 * turns, 1e-9);
+    most = std::max(most, turns);
+  }
+  EXPECT_NEAR(most, 9.6, 1e-9);
+}
+
+TEST_F(Tap, AResetAbandonsATapThatThePlcHasStoppedAndOtherMovesAreNotStopped) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  idl::plc::ChannelControl control;
+  control.tap_stop = true;
+  core->set_control(control);
+  for (int i = 0; i < 200; ++i) round();
+  const auto stopped = drive.rows.back()[2];
+  ask(CommandKind::RESET);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[2], stopped);
+  start("G90 G0 Z20\nM30\n");
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[2], 20);
+}
+
+// 12 mm at a lead of 1.25 mm are 9.6 turns, counter-clockwise out of a right-hand thread.
+TEST_F(Tap, ATapThatAResetHasLeftIsMovedOutInStepWithTheSpindle) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  ask(CommandKind::RESET);
+  run();
+  const double from = drive.rows.back()[2];
+  const auto before = coupled().size();
+  start("S200 G84.9 Z12 K1.25\nM30\n");
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_NEAR(drive.rows.back()[2], from + 12, 1e-9);
+  const auto rows = coupled();
+  ASSERT_GT(rows.size(), before + 1000);
+  for (std::size_t i = before; i < rows.size(); ++i)
+    ASSERT_NEAR(from - rows[i].first, 1.25 * rows[i].second, 1e-9);
+  EXPECT_NEAR(rows.back().second, -9.6, 1e-9);
+}
+
+// The hole is at X0 Y0 from Z2 down, its thread right-hand with lead 1.25.
+TEST_F(Tap, ATapThatWasLeftComesOutOnlyAlongItsThreadAlsoInAnotherProcess) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  EXPECT_EQ(core->tap().lead, 1.25);
+  ask(CommandKind::RESET);
+  run();
+  const double from = drive.rows.back()[2];
+  begin(core->running_program());
+  EXPECT_EQ(core->tap(), (program_execution::TapInHole{1.25, {0, 0, 2}, {0, 0, -1}}));
+  const auto moved = drive.rows.size();
+  for (const char* wrong : {"S200 G84.9 Z12 K-1.25\nM30\n", "S200 G84.9 Z12 K1.5\nM30\n",
+                            "S200 G18 G84.9 Z-1 K1.25\nM30\n", "S200 G84.9 X5 K1.25\nM30\n"}) {
+    events.clear();
+    start(wrong);
+    run();
+    ASSERT_FALSE(events.empty()) << wrong;
+    EXPECT_EQ(events.back().alarm, &alarm::tap_removal_thread) << wrong;
+    EXPECT_EQ(drive.rows.size(), moved) << wrong;
+  }
+  start("S200 G84.9 Z12 K1.25\nM30\n");
+  run();
+  EXPECT_NEAR(drive.rows.back()[2], from + 12, 1e-9);
+  EXPECT_EQ(core->tap(), program_execution::TapInHole{});
+  // It is out: there is nothing to compare with.
+  start("S200 G84.9 Z12 K2\nM30\n");
+  run();
+  EXPECT_NEAR(drive.rows.back()[2], from + 24, 1e-9);
+}
+
+TEST_F(Tap, NoTapIsLeftBehindAWholeHole) {
+  start(hole);
+  run();
+  EXPECT_EQ(core->tap(), program_execution::TapInHole{});
 }
 
 TEST_F(Tap, SingleBlockStopsBehindTheHoleNotAtItsBottom) {

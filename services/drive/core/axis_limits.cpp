@@ -20,7 +20,8 @@ AxisLimits axis_limits(const machine::Parameters& p, std::uint16_t axis) {
           p.integer(parameter::homing_marks, axis),
           p.get(parameter::reference_feed, axis) / 60,
           p.get(parameter::homing_creep_feed, axis) / 60,
-          p.get(parameter::reference_coordinate, axis)};
+          p.get(parameter::reference_coordinate, axis),
+          (1 - p.get(parameter::velocity_feedforward, axis)) / p.get(parameter::position_gain, axis)};
 }
 
 }  // namespace trunnion::drive

@@ -14,6 +14,7 @@ struct AxisLimits {
   int homing_direction;  ///< 0: none is needed
   int homing_marks;      ///< 10a922
   double homing_search, homing_creep, reference;
+  double lag = 0;  ///< s: following error per speed (10a900, 10a904)
 };
 
 AxisLimits axis_limits(const machine::Parameters& parameters, std::uint16_t axis);

@@ -2,6 +2,7 @@
 #include "channel_streams.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace trunnion::drive {
@@ -22,7 +23,8 @@ const double* ChannelStream::spindle_row(std::uint64_t cycle) const {
   for (const auto* batch = window.peek(); batch != nullptr;
        batch = window.find(batch->first + batch->count)) {
     if (cycle < batch->first || cycle >= batch->first + batch->count) continue;
-    return batch->spindle.empty() ? nullptr : &batch->spindle[cycle - batch->first];
+    if (batch->spindle.empty() || batch->follows_spindle) return nullptr;
+    return &batch->spindle[cycle - batch->first];
   }
   return nullptr;
 }
@@ -106,10 +108,17 @@ StreamSupply ChannelStreams::supply(std::uint64_t next, std::uint64_t lead) cons
     last = std::max(last, end);
     if (!ended) {
       ends = false;
+      if (channel.in_thread()) end = std::max(next, end - std::min(end, ThreadFollowing::ahead(lead)));
       until = std::min(until, end);
     }
   }
   return {(ends ? last : until) - next, ends};
+}
+
+std::uint64_t ChannelStreams::ahead(std::uint64_t lead) const {
+  const bool thread = std::any_of(channels_.begin(), channels_.end(),
+                                  [](const auto& c) { return c.second.active && c.second.in_thread(); });
+  return thread ? ThreadFollowing::ahead(lead) : 0;
 }
 
 void ChannelStreams::setpoints(std::uint64_t cycle, const std::vector<machine::AxisInfo>& axes,
@@ -118,11 +127,11 @@ void ChannelStreams::setpoints(std::uint64_t cycle, const std::vector<machine::A
     if (!channel.active) continue;
     const double* values = channel.row(cycle);
     if (values == nullptr) continue;
-    const auto* batch = channel.window.peek();
-    if (channel.axes != batch->axes) {
-      channel.axes = batch->axes;
-      channel.columns.clear();
-      for (const auto axis : channel.axes) channel.columns.push_back(machine::column_of(axes, axis));
+    channel.take_columns(axes);
+    std::array<double, ThreadFollowing::most_columns> shifted{};
+    if (channel.thread.active()) {
+      channel.thread_row(cycle, shifted);
+      values = shifted.data();
     }
     for (std::size_t i = 0; i < channel.columns.size(); ++i)
       if (channel.columns[i] >= 0) {
@@ -157,12 +166,31 @@ void ChannelStreams::lead_spindles(std::uint64_t next, double phase, Spindles& s
   }
 }
 
+void ChannelStreams::follow_spindles(const PassedPeriod& period, const std::vector<SpindleStatus>& status,
+                                     const Spindles& spindles, const std::vector<machine::AxisInfo>& axes,
+                                     const std::vector<AxisLimits>& limits) {
+  for (auto& [number, channel] : channels_) {
+    if (!channel.active || !channel.in_thread() || channel.row(period.next) == nullptr) continue;
+    channel.take_columns(axes);
+    channel.follow_spindle(period, status, spindles, limits);
+  }
+}
+
 void ChannelStreams::pass(std::uint64_t next, Spindles& spindles) {
   for (auto& [number, channel] : channels_) {
     if (!channel.active) continue;
     const auto* batch = channel.window.peek();
     if (batch == nullptr) continue;
     channel.skip_move = batch->skip_move;
+    if (next >= batch->first && next < batch->first + batch->count) {
+      auto& speeds = spindles.surface_speeds();
+      if (batch->turning_radius.empty())
+        speeds.pass(number);
+      else
+        speeds.turn_at(number, batch->turning_radius[next - batch->first]);
+    }
+    if (const double* values = channel.row(next); values != nullptr && channel.thread.active())
+      channel.thread.keep(next, {values, batch->axes.size()}, channel.thread_angle(next));
     if (next + 1 != batch->first + batch->count) continue;
     channel.snapshot = batch->snapshot;
     channel.states = batch->states;
@@ -172,6 +200,7 @@ void ChannelStreams::pass(std::uint64_t next, Spindles& spindles) {
     channel.active = false;
     channel.ending = true;
     channel.release_spindle(spindles);
+    channel.thread.clear();
   }
 }
 
@@ -208,6 +237,7 @@ void ChannelStreams::fill(std::uint64_t next, idl::stream::Feedback& out) const 
     echo.start = channel.start;
     echo.snapshot = channel.snapshot;
     echo.states = channel.states;
+    echo.search = channel.search;
   }
 }
 

@@ -7,16 +7,28 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
+#include <type_traits>
 #include <vector>
 
+#include "axis_limits.hpp"
 #include "contracts/types.hpp"
 #include "drive_memory.hpp"
 #include "gantry_slaves.hpp"
 #include "machine/axes.hpp"
 #include "spindles.hpp"
 #include "stream/batch_window.hpp"
+#include "thread_following.hpp"
 
 namespace trunnion::drive {
+
+/// A period in which the setpoints of the cycle `next` are passed.
+struct PassedPeriod {
+  std::uint64_t next = 0, lead = 32;
+  double dt = 0.001;   ///< s
+  double periods = 1;  ///< from the newest angles of the spindles to the end of the period of these setpoints
+  bool whole = true;   ///< one cycle passes in each period: the drive neither brakes nor resumes
+};
 
 struct ChannelStream {
   stream::BatchWindow<idl::stream::AxisBatch> window;
@@ -33,11 +45,23 @@ struct ChannelStream {
   std::vector<int> columns;
   int spindle = -1;        ///< that follows the channel's batches
   bool skip_move = false;  ///< of the newest batch of which a setpoint was passed
+  idl::stream::ReferenceSearch search = idl::stream::ReferenceSearch::NO_SEARCH;  ///< of its newest HOME
+  ThreadFollowing thread;
 
   /// Setpoints of the axes of the batch at `cycle`; null when they are not here.
   const double* row(std::uint64_t cycle) const;
   /// Revolutions of the spindle at `cycle`; null when none follows.
   const double* spindle_row(std::uint64_t cycle) const;
+  /// The angle of the spindle that the setpoints of `cycle` follow (thread); null when they follow none.
+  const double* thread_angle(std::uint64_t cycle) const;
+  /// Of the batch that comes next.
+  void take_columns(const std::vector<machine::AxisInfo>& drive_axes);
+  bool in_thread() const;
+  /// Before the cycle of `period` is passed, in a thread.
+  void follow_spindle(const PassedPeriod& period, const std::vector<SpindleStatus>& status,
+                      const Spindles& spindles, const std::vector<AxisLimits>& limits);
+  /// Setpoints as row(), each at the place of its axis: `cycle` is not passed.
+  void thread_row(std::uint64_t cycle, std::span<double> out) const;
   /// The epoch of a START or NEW_EPOCH is the one that comes next.
   bool expects(const idl::stream::StreamRequest& request) const;
   void release_spindle(Spindles& spindles);
@@ -50,7 +74,16 @@ struct ChannelStream {
     visit("states", self.states), visit("axes", self.axes), visit("columns", self.columns);
     visit("spindle", self.spindle), visit("skip_move", self.skip_move);
     visit("resume", self.resume);
+    if (!std::is_const_v<Self> || self.search != idl::stream::ReferenceSearch::NO_SEARCH)
+      visit("search", self.search);
+    if (!std::is_const_v<Self> || self.thread.active()) visit("thread", self.thread);
   }
+
+ private:
+  const double* nearest_row(std::uint64_t cycle) const;
+  const double* kept_row(std::uint64_t cycle) const;
+  std::uint64_t left(const PassedPeriod& period) const;
+  ThreadLimits thread_limits(const PassedPeriod& period, const std::vector<AxisLimits>& limits) const;
 };
 
 /// How far the setpoints at hand reach.
@@ -84,8 +117,10 @@ class ChannelStreams {
   /// begun.
   bool let_begin(std::uint64_t next, bool prefilled);
 
-  /// Looks a few `lead` ahead.
+  /// Looks a few `lead` ahead. Without what ahead() says.
   StreamSupply supply(std::uint64_t next, std::uint64_t lead) const;
+  /// Cycles that must be at hand besides: axes of a thread may be as far before the cycle that is passed.
+  std::uint64_t ahead(std::uint64_t lead) const;
   /// Setpoints at `cycle` in the columns of `axes`; those of axes that no channel moves then stay.
   void setpoints(std::uint64_t cycle, const std::vector<machine::AxisInfo>& axes, const GantrySlaves& slaves,
                  std::vector<double>& out);
@@ -93,6 +128,10 @@ class ChannelStreams {
   /// behind.
   void couple_spindles(std::uint64_t next, const std::vector<SpindleStatus>& status, Spindles& spindles);
   void lead_spindles(std::uint64_t next, double phase, Spindles& spindles) const;
+  /// Before `next` is passed: threads go to the places that belong to the angles of their spindles.
+  void follow_spindles(const PassedPeriod& period, const std::vector<SpindleStatus>& status,
+                       const Spindles& spindles, const std::vector<machine::AxisInfo>& axes,
+                       const std::vector<AxisLimits>& limits);
   /// The cycle `next` is handed over: batches that end with it are forgotten, and channels end with theirs.
   void pass(std::uint64_t next, Spindles& spindles);
   /// Every cycle that was handed over is executed.

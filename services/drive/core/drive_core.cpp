@@ -36,6 +36,7 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   for (std::size_t i = 0; i < axes_.size(); ++i) limits_[i] = axis_limits(p, axes_[i].number);
   slaves_.configure(p, axes_.size());
   spindles_.configure(p, dt_);
+  spindles_.report_parameters(events_);
   row_.spindles.resize(spindles_.size());
   hardware_->configure(p, axes_, spindles_.axes(), dt_);
   if (first)
@@ -98,6 +99,7 @@ Memory DriveCore::memory() const {
 void DriveCore::leave(ChannelStream& channel) {
   channel.active = channel.ending = channel.resume = false;
   channel.release_spindle(spindles_);
+  channel.thread.clear();
   // The others go on from between two cycles: its axes stay where they are.
   for (const int column : channel.columns)
     if (column >= 0) target_[static_cast<std::size_t>(column)] = command_[static_cast<std::size_t>(column)];
@@ -126,10 +128,10 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
       break;
     case StreamRequestKind::LEAVE:
       leave(channel);
-      if (mode_ == Mode::HOMING && request.channel == search_.channel()) search_.abort();
+      if (mode_ == Mode::HOMING && request.channel == homing_.channel()) homing_.abort();
       break;
     case StreamRequestKind::HOME:
-      home(request.channel, request.axis);
+      home(channel, request);
       break;
   }
 }
@@ -151,6 +153,7 @@ void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emerge
   bool all = !axes_.empty();
   for (const auto& axis : axes_) all = all && axis.number < enable.size() && (enable[axis.number] & 1) != 0;
   enable_.demand(all && !emergency_stop);
+  spindles_.run_down(!enable_.granted());
   slaves_.demand_off(enable);
   couple_slaves();
   if (enable_.demanded()) {
@@ -158,7 +161,7 @@ void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emerge
   } else if (mode_ == Mode::HELD || (mode_ == Mode::FOLLOWING && !any_active())) {
     mode_ = Mode::OFF;
   } else if (mode_ == Mode::HOMING) {
-    search_.abort();
+    homing_.abort();
   } else if (mode_ != Mode::OFF && mode_ != Mode::BRAKING) {
     begin_braking();
   }
@@ -189,7 +192,10 @@ void DriveCore::stop_at_newest_row(std::uint64_t starved) {
                 static_cast<unsigned long long>(starved), static_cast<unsigned long long>(next_));
   raise(alarm::setpoint_missing, 0, text);
   if (mode_ == Mode::RETURNING) off_path_ = true;
-  if (homing) target_ = command_;
+  if (homing) {
+    note_search(HomingCycle::State::failed);
+    target_ = command_;
+  }
   for (auto& axis : row_.axes) axis.velocity = 0;
   stopped();
 }
@@ -252,6 +258,9 @@ void DriveCore::follow_supply() {
 // here.
 bool DriveCore::pass_cycle() {
   if (supply().cycles == 0) return false;
+  const bool whole = mode_ == Mode::FOLLOWING && rate_.whole();
+  streams_.follow_spindles({next_, lead_, dt_, static_cast<double>(rows_.pending() + 1), whole},
+                           status_.spindles, spindles_, axes_, limits_);
   target_of(next_, scratch_);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     velocity_[i] = scratch_[i] - target_[i];
@@ -329,7 +338,8 @@ void DriveCore::follow() {
     moving = std::max(moving, std::abs(velocity_[i]) / (limits_[i].acceleration * dt_ * dt_));
   // The stop leads through the next setpoints, where another axis may be the fastest.
   moving = std::max(moving, stop_periods(std::min(supply().cycles, lead_ / 2)));
-  reserve_ = std::min<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(moving / 2)), lead_ / 2);
+  reserve_ = std::min<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(moving / 2)),
+                                     lead_ / 2 - streams_.ahead(lead_));
   if (!any_active()) {
     settle_ = virtual_time_ ? settling_periods : 0;
     reserve_ = 0;
@@ -341,23 +351,27 @@ void DriveCore::follow() {
 // Hands the setpoints of this period over and reads the machine.
 void DriveCore::exchange() {
   ++row_.number;
+  const bool controlled_before = row_.controls_spindles();
   row_.controlled = mode_ != Mode::OFF;
+  row_.spindles_controlled = spindles_run_down();
   row_.moving = mode_ == Mode::FOLLOWING && any_active();
-  row_.enable = row_.controlled || enable_.granted();
+  row_.enable = row_.controls_spindles() || enable_.granted();
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     auto& axis = row_.axes[i];
     const double velocity = row_.controlled ? (command_[i] - axis.position) / dt_ : 0;
     const double acceleration = row_.controlled ? (velocity - axis.velocity) / dt_ : 0;
     axis = {command_[i], velocity, acceleration};
   }
-  spindles_.step(status_.spindles, row_.controlled, row_.spindles);
+  spindles_.run_down(!enable_.granted());
+  if (!controlled_before && row_.controlled) spindles_.await_rest();
+  spindles_.step(status_.spindles, row_.controlled, row_.spindles, row_.spindles_controlled);
+  spindles_.report(status_.spindles, events_);
   if (testing() && (mode_ == Mode::OFF || mode_ == Mode::BRAKING || mode_ == Mode::HELD))
     hardware_->tester()->end(idl::servo::TestPhase::ENDED_BY_STOP);
   hardware_->exchange(row_, status_, rows_);
   watch_probe();
-  if (row_.controlled) {
-    supervise();
-  } else if (!row_.enable) {
+  if (row_.controls_spindles()) supervise();
+  if (!row_.controlled && (!row_.enable || row_.spindles_controlled)) {
     for (std::size_t i = 0; i < axes_.size(); ++i)
       command_[i] = row_.axes[i].position = status_.axes[i].hold_position;
   }

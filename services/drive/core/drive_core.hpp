@@ -20,7 +20,7 @@
 #include "drive_memory.hpp"
 #include "executed_rows.hpp"
 #include "gantry_slaves.hpp"
-#include "homing_search.hpp"
+#include "homing_group.hpp"
 #include "machine/axes.hpp"
 #include "path_rate.hpp"
 #include "probe_watch.hpp"
@@ -61,9 +61,21 @@ class DriveCore {
   void request(const idl::stream::StreamRequest& request);
   void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);
   void set_spindle_speed(const std::vector<double>& speed) { spindles_.demand_speeds(speed); }
-  /// Spindles that turn to their orientation angle and are held there; not while they are coupled.
-  void set_spindle_orientation(const std::vector<std::uint8_t>& orient) {
-    spindles_.demand_orientations(orient);
+  /// Spindles with a constant surface speed in place of that: all that the PLC orders now.
+  void set_surface_speeds(const std::vector<idl::plc::SurfaceSpeed>& speeds) {
+    spindles_.demand_surface_speeds(speeds);
+  }
+  /// Spindles that turn to their orientation angle and are held there; not while they are coupled. `angle`
+  /// deg: below 0 or missing = that of the parameters.
+  void set_spindle_orientation(const std::vector<std::uint8_t>& orient,
+                               const std::vector<double>& angle = {}) {
+    spindles_.demand_orientations(orient, angle);
+  }
+  /// Gears that are engaged, from 1; 0 or missing = the spindle has none.
+  void set_spindle_gears(const std::vector<std::uint8_t>& gear) { spindles_.engage_gears(gear); }
+  /// Spindles that follow others: all that the PLC requests now.
+  void set_spindle_couplings(const std::vector<idl::plc::SpindleCoupling>& couplings) {
+    spindles_.couple(couplings);
   }
 
   /// With the probe on, a rising edge of skip input 1 outside a skip move stops the axes and is an alarm.
@@ -122,7 +134,7 @@ class DriveCore {
     PathRate::fields(self.rate_, visit);
     visit("off_path", self.off_path_), visit("reserve", self.reserve_);
     visit("settle", self.settle_);
-    HomingSearch::fields(self.search_, visit);
+    HomingGroup::fields(self.homing_, visit);
     ReturnMove::fields(self.return_, visit);
     Spindles::fields(self.spindles_, visit);
     AxisSupervision::fields(self.supervision_, visit);
@@ -139,10 +151,11 @@ class DriveCore {
   bool prefilled(const StreamSupply& supply) const;
   void start(ChannelStream& channel, const idl::stream::StreamRequest& request);
   bool all_homed();
-  void home(std::uint16_t channel, std::uint16_t axis);
+  void home(ChannelStream& channel, const idl::stream::StreamRequest& request);
   void reference(std::size_t column, double shift);
   void reference_members();
   void step_homing();
+  void note_search(HomingCycle::State state);
   void follow_supply();
   void begin_braking();
   bool pass_cycle();
@@ -161,6 +174,7 @@ class DriveCore {
   void switch_off();
   void stop_at_newest_row(std::uint64_t starved);
   void supervise();
+  bool spindles_run_down() const;
   bool testing() const { return hardware_->tester() != nullptr && hardware_->tester()->running(); }
   void watch_probe();
   void align_slaves();
@@ -199,7 +213,7 @@ class DriveCore {
   bool resumed_ = false;
   std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits
   std::uint32_t settle_ = 0;   // periods until the servos are at rest, in virtual time
-  HomingSearch search_;
+  HomingGroup homing_;
   GantrySlaves slaves_;
   Mode after_alignment_ = Mode::OFF;  // while slaves are aligned: what follows
   ReturnMove return_;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "bus/json_type.hpp"
@@ -33,13 +34,15 @@ struct AxisSetpoint {
 };
 
 struct SpindleSetpoint {
-  double speed = 0;      ///< demanded by the PLC; not in force while coupled
-  bool coupled = false;  ///< the spindle follows `angle` (tapping)
+  double speed = 0;      ///< reference of the speed; not in force while coupled
+  bool coupled = false;  ///< the spindle follows `angle` (tapping, orientation)
   double angle = 0;
+  std::uint8_t gear = 0;  ///< in force, from 1; 0 = the spindle has no gears
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("speed", self.speed), visit("coupled", self.coupled), visit("angle", self.angle);
+    if (!std::is_const_v<Self> || self.gear != 0) visit("gear", self.gear);
   }
 };
 
@@ -47,18 +50,26 @@ struct SpindleSetpoint {
 struct SetpointRow {
   std::uint64_t number = 0;  ///< counts the periods of this process from 1 on
   bool enable = false;       ///< the drives shall be switched on; false: braked or held by the hardware
-  /// The axes follow the row. When false its positions are without effect and the spindles run down.
+  /// The axes follow the row. When false its positions are without effect, and the spindles run down unless
+  /// they are controlled alone.
   bool controlled = false;
+  /// The axes do not follow the row, but the spindles do: synchronized ones run down together. `enable` stays
+  /// on meanwhile, and the axes are held where they are.
+  bool spindles_controlled = false;
   bool moving = false;  ///< a channel has the axes
   std::vector<AxisSetpoint> axes;
   std::vector<SpindleSetpoint> spindles;
   bool probe_on = false;  ///< the touch probe is switched on
+
+  bool controls_spindles() const { return controlled || spindles_controlled; }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("number", self.number), visit("enable", self.enable), visit("controlled", self.controlled);
     visit("moving", self.moving);
     visit("axes", self.axes), visit("spindles", self.spindles), visit("probe_on", self.probe_on);
+    if (!std::is_const_v<Self> || self.spindles_controlled)
+      visit("spindles_controlled", self.spindles_controlled);
   }
 };
 
@@ -88,6 +99,10 @@ struct AxisStatus {
 
 struct SpindleStatus {
   double speed = 0, angle = 0;
+  /// The index mark was passed since the start: `angle` is whole at it. Until then it counts from where the
+  /// spindle was, and it steps when the spindle is homed, but never while the spindle is coupled.
+  bool homed = true;
+  double torque = 0;  ///< share of what the motor can at this speed, without sign; 0 = not known
 };
 
 /// Encoder positions at the end of the period of row `number`, when its setpoints should be reached; hardware

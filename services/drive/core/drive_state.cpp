@@ -6,8 +6,9 @@
 namespace trunnion::drive {
 namespace {
 // Written where there is something. It is behind the rest, as recordings have it.
-constexpr const char* rare[] = {"homing_members", "homing_channel", "unsettled",
-                                "off_periods",    "slaves",         "after_alignment"};
+constexpr const char* rare[] = {"homing_members",  "homing_channel",  "unsettled", "off_periods",
+                                "slaves",          "after_alignment", "ramps",     "gears",
+                                "synchronization", "surface"};
 
 void put_last(bus::Json& state, const std::string& name) {
   const auto found = state.find(name);

@@ -22,7 +22,7 @@ void DriveCore::fill(idl::stream::Feedback& out) {
     const auto* slave = slaves_.at(i);
     out.enabled[i] = mode_ == Mode::OFF ? 0 : slave != nullptr && slave->off ? 3 : 1;
   }
-  spindles_.fill(status_.spindles, out);
+  spindles_.fill(status_.spindles, row_.spindles, row_.controlled, out, row_.spindles_controlled);
   out.starved = starved_;
   out.skip_inputs = status_.skip_inputs;
   streams_.fill(next_, out);

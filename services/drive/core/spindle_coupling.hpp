@@ -21,6 +21,8 @@ class SpindleCoupling {
   void lead_on(double cycles) { setpoint_.angle += cycles * change_; }
 
   const SpindleSetpoint& setpoint() const { return setpoint_; }
+  /// rev from the setpoint of the cycle before to that of the cycle that is executed, while coupled.
+  double change() const { return change_; }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

@@ -31,7 +31,9 @@ bool DriveCore::enough(const StreamSupply& s) const {
   return s.cycles > 0 && (s.ends || s.cycles > reserve_);
 }
 
-bool DriveCore::prefilled(const StreamSupply& s) const { return s.ends || s.cycles >= prefill_; }
+bool DriveCore::prefilled(const StreamSupply& s) const {
+  return s.ends || s.cycles + streams_.ahead(lead_) >= prefill_;
+}
 
 bool DriveCore::waiting() const { return mode_ == Mode::FOLLOWING && any_active() && !enough(supply()); }
 
@@ -44,7 +46,7 @@ bool DriveCore::can_step(bool give_up) const {
     case Mode::HELD:
       return streams_.resume_demanded() && prefilled(supply());
     case Mode::OFF:
-      return hardware_->running_out();
+      return hardware_->running_out() || row_.spindles_controlled || spindles_run_down();
     case Mode::FOLLOWING:
       break;
   }

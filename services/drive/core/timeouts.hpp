@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the drive waits. docs/architecture.md and docs/faults.md name these figures; a test compares them.
+// How long the drive waits. Documents name these figures; a test compares them.
 #pragma once
 
 namespace trunnion::drive {
@@ -9,6 +9,8 @@ inline constexpr double missing_setpoint_timeout =
 inline constexpr double plc_timeout = 1.5;  ///< s without a sign of the PLC until the drive stops
 inline constexpr double drives_on_timeout =
     2;  ///< s from their enable until drives that are off are an alarm
+inline constexpr double spindle_rest_timeout =
+    2;  ///< s from the end of the ramp until synchronized spindles that are not at rest are left alone
 inline constexpr double servo_test_timeout = 5;  ///< s without its client until the drive ends a servo test
 
 }  // namespace trunnion::drive

@@ -171,7 +171,7 @@ void HalHardware::report_skip_edges(const HalSample& sample, EncoderRowSink& row
 void HalHardware::write(const SetpointRow& row) {
   const auto& c = setpoint_columns_;
   newest_ = row.number;
-  controlled_ = row.controlled;
+  controlled_ = row.controls_spindles();  // the drives are on: axes are held at the newest setpoint
   const bool enable = row.enable && row.number > rows_before_enable;
   if (!enable)
     enabled_from_ = 0;
@@ -195,8 +195,8 @@ void HalHardware::write(const SetpointRow& row) {
   for (std::size_t i = 0; i < spindles_.size(); ++i) {
     auto* column = &row_[c.first_spindle + 3 * i];
     const auto& spindle = row.spindles[i];
-    column[0].f = row.controlled ? spindle.speed : 0;
-    column[1].b = row.controlled && spindle.coupled;
+    column[0].f = row.controls_spindles() ? spindle.speed : 0;
+    column[1].b = row.controls_spindles() && spindle.coupled;
     column[2].f = spindle.coupled ? spindle.angle : spindles_[i].angle;
   }
   streams_->write(row_);

@@ -40,8 +40,10 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
   spindles_.resize(spindles.size());
   for (std::size_t i = 0; i < spindles.size(); ++i) {
     const auto truth = spindle_truth_.find(spindles[i].name);
-    spindles_[i].configure(p.get(parameter::maximum_acceleration, spindles[i].number), period,
-                           truth == spindle_truth_.end() ? nullptr : &truth->second);
+    const auto number = spindles[i].number;
+    spindles_[i].configure(
+        {p.get(parameter::maximum_acceleration, number), p.get(parameter::spindle_lag, number) / 1000},
+        period, truth == spindle_truth_.end() ? nullptr : &truth->second);
   }
   skip_inputs_.configure(p, axes);
   if (probe_) probe_->configure(p, axes);
@@ -95,8 +97,7 @@ void SimulatedHardware::status(DriveStatus& out) const {
   }
   faults_.status(out.axes);
   out.spindles.resize(spindles_.size());
-  for (std::size_t i = 0; i < spindles_.size(); ++i)
-    out.spindles[i] = {spindles_[i].speed(), spindles_[i].angle()};
+  for (std::size_t i = 0; i < spindles_.size(); ++i) out.spindles[i] = spindles_[i].status();
   out.skip_inputs = skip_inputs_.on();
   if (probe_ && probe_->on()) out.skip_inputs |= 1;
 }
@@ -144,7 +145,8 @@ void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, Encod
     if (on && !home.on) home.latch = servos_[i].encoder();
     home.on = on;
   }
-  for (std::size_t i = 0; i < spindles_.size(); ++i) spindles_[i].step(row.spindles[i], row.controlled);
+  for (std::size_t i = 0; i < spindles_.size(); ++i)
+    spindles_[i].step(row.spindles[i], row.controls_spindles());
   for (std::size_t i = 0; i < servos_.size(); ++i) encoder_[i] = servos_[i].encoder();
   for (std::size_t i = 0; i < spindles_.size(); ++i) angle_[i] = spindles_[i].angle();
   rows.encoder_row({row.number, encoder_, angle_});

@@ -34,6 +34,17 @@ struct Streams : ::testing::Test {
     batch.snapshot.cycle = first + 3;
     EXPECT_TRUE(streams.put(batch));
   }
+  // The same of channel 0, whose spindle is at 0.1 rev for each cycle.
+  void put_spindle(std::uint64_t first, bool follows, bool ends = false) {
+    idl::stream::AxisBatch batch;
+    batch.epoch = 1, batch.first = first, batch.count = 4, batch.ends = ends, batch.starts = first == 0;
+    batch.axes = {2, 0}, batch.spindle_axis = 5, batch.follows_spindle = follows;
+    for (std::uint64_t n = first; n < first + 4; ++n) {
+      for (const auto axis : batch.axes) batch.setpoints.push_back(100.0 * axis + static_cast<double>(n));
+      batch.spindle.push_back(0.1 * static_cast<double>(n));
+    }
+    EXPECT_TRUE(streams.put(batch));
+  }
   std::vector<double> setpoints(std::uint64_t cycle) {
     std::vector<double> out = {-1, -1, -1};
     streams.setpoints(cycle, axes, GantrySlaves(), out);
@@ -115,6 +126,60 @@ TEST_F(Streams, AStartIsOfTheEpochThatWasBegunAndANewEpochIsLater) {
   EXPECT_TRUE(channel.expects({0, 1, StreamRequestKind::NEW_EPOCH, 2, 0}));
   EXPECT_FALSE(channel.expects({0, 1, StreamRequestKind::NEW_EPOCH, 1, 0}));
   EXPECT_FALSE(channel.expects({0, 1, StreamRequestKind::NEW_EPOCH, 1u << 30, 0})) << "too far ahead";
+}
+
+TEST_F(Streams, ATapCouplesTheSpindleAndAThreadLeavesItItsSpeed) {
+  machine::Parameters p;
+  p.values[105000] = {0, "S"}, p.values[105001] = {machine::axis_type_spindle, ""};
+  spindles.configure(p, 0.001);
+  const std::vector<SpindleStatus> status(1);
+  put_spindle(0, false), put_spindle(4, true);
+  for (std::uint64_t next = 0; next < 4; ++next) {
+    streams.couple_spindles(next, status, spindles);
+    EXPECT_TRUE(spindles.coupling(0).setpoint().coupled);
+    streams.pass(next, spindles);
+  }
+  streams.couple_spindles(4, status, spindles);
+  EXPECT_FALSE(spindles.coupling(0).setpoint().coupled);
+  EXPECT_EQ(streams.find(0)->spindle_row(4), nullptr);
+  ASSERT_NE(streams.find(0)->thread_angle(5), nullptr);
+  EXPECT_EQ(*streams.find(0)->thread_angle(5), 0.5);
+  EXPECT_EQ(streams.find(0)->thread_angle(8), nullptr) << "it is not at hand";
+}
+
+// With a lead of 32 a thread needs 8 cycles at hand besides, with 8 it needs 2.
+TEST_F(Streams, AThreadKeepsSetpointsInHandForItsShift) {
+  streams.find(1)->active = false;
+  for (std::uint64_t first = 0; first < 20; first += 4) put_spindle(first, true);
+  EXPECT_EQ(streams.ahead(lead), 8u);
+  EXPECT_EQ(streams.supply(0, lead).cycles, 12u);
+  EXPECT_EQ(streams.supply(0, 8).cycles, 18u);
+  EXPECT_EQ(streams.supply(16, lead).cycles, 0u);
+  put_spindle(20, true, true);
+  EXPECT_EQ(streams.supply(0, lead).cycles, 24u) << "the stream ends";
+}
+
+TEST_F(Streams, AnAxisOfAThreadIsBetweenTheSetpointsWhereTheAngleOfTheSpindleIs) {
+  streams.find(1)->active = false;
+  machine::Parameters p;
+  p.values[105000] = {0, "S"}, p.values[105001] = {machine::axis_type_spindle, ""};
+  spindles.configure(p, 0.001);
+  for (std::uint64_t first = 0; first < 20; first += 4) put_spindle(first, true);
+  // X and Z go 1 mm in a cycle: a thousandth of their speed, and a tenth of what they can change it by.
+  std::vector<AxisLimits> limits(3);
+  for (auto& limit : limits) limit.velocity = 1e6, limit.acceleration = 1e7;
+  std::vector<SpindleStatus> status(1);
+  // 0.1 rev in a cycle of 1 ms are 6000 1/min. Before cycle 4 the angle should be 0.3 rev; it is 0.325 rev.
+  for (std::uint64_t next = 0; next < 5; ++next) {
+    status[0] = {6000, 0.1 * static_cast<double>(next) - 0.075};
+    streams.follow_spindles({next, lead, 0.001, 1, true}, status, spindles, axes, limits);
+    if (next < 4) streams.pass(next, spindles);
+  }
+  EXPECT_NEAR(setpoints(4)[0], 4.25, 1e-9);
+  EXPECT_NEAR(setpoints(5)[0], 5.25, 1e-9);
+  EXPECT_NEAR(setpoints(4)[2], 204.25, 1e-9);
+  EXPECT_EQ(setpoints(4)[1], -1) << "no axis of the channel";
+  EXPECT_NEAR(setpoints(19)[0], 19, 1e-9) << "the last setpoint that is at hand";
 }
 
 TEST_F(Streams, KeepTheirEpochsForTheNextProcess) {

@@ -35,5 +35,11 @@ TEST(Documents, TheTimeThatDrivesTakeToComeOnIsTheOneOfTheCode) {
             std::string::npos);
 }
 
+TEST(Documents, TheTimeThatSynchronizedSpindlesHaveToComeToRestIsTheOneOfTheCode) {
+  EXPECT_NE(
+      document("spindles.md").find(fmt::format("{:g} s after the end of the ramp", spindle_rest_timeout)),
+      std::string::npos);
+}
+
 }  // namespace
 }  // namespace trunnion::drive

@@ -19,7 +19,7 @@ class QueuedHardware : public DriveHardware {
     beside.resize(axes.size());
     in_force_.resize(axes.size());
     velocity_.resize(axes.size());
-    spindles_ = spindles.size();
+    spindle.resize(spindles.size());
     fault.resize(axes.size());
   }
   void restore(std::span<const double>, std::span<const std::uint8_t>) override {}
@@ -31,7 +31,7 @@ class QueuedHardware : public DriveHardware {
       out.axes[i].following_error = controlled_ ? in_force_[i] - position[i] : 0;
       out.axes[i].velocity = velocity_[i];
     }
-    out.spindles.resize(spindles_);
+    out.spindles = spindle;
   }
   bool enabled() const override { return on; }
   void reset_faults() override { ++resets; }
@@ -64,10 +64,11 @@ class QueuedHardware : public DriveHardware {
   std::vector<double> beside;  // mm by which an axis is ahead of the row in force
   bool encoders_lost = false;  // the positions stay as they are
   std::vector<bool> fault;
+  std::vector<SpindleStatus> spindle;  // as they turn, whatever they are told
   SetpointRow newest;
 
  private:
-  std::size_t queue_, spindles_ = 0;
+  std::size_t queue_;
   std::deque<SetpointRow> rows_;
   std::vector<double> in_force_, velocity_;
   bool controlled_ = false;

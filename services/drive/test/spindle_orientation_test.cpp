@@ -19,7 +19,7 @@ struct Oriented {
     machine.configure(acceleration, period);
     orientation.configure({angle, 0.1, speed, acceleration}, period);
   }
-  SpindleStatus status() const { return {machine.speed(), machine.angle()}; }
+  SpindleStatus status() const { return machine.status(); }
   void step(double speed, bool controlled = true) {
     machine.step(orientation.step({speed, false, 0}, status(), controlled), controlled);
   }
@@ -161,6 +161,88 @@ TEST(SpindleOrientation, ANewAngleTurnsAHeldSpindle) {
   s.orientation.configure({45, 0.1, 100, acceleration}, period);
   ASSERT_GT(s.run(0), 0);
   EXPECT_NEAR(s.deviation(45), 0, 0.1);
+}
+
+TEST(SpindleOrientation, TheOrderedAngleReplacesThatOfTheParameters) {
+  Oriented s(30);
+  const auto turn_to = [&](double ordered) {
+    s.orientation.demand(true, ordered);
+    return s.run(0) > 0 ? 360 * s.machine.angle() : -1000;
+  };
+  EXPECT_NEAR(turn_to(90), 90, 0.1);
+  EXPECT_NEAR(turn_to(200), 200, 0.1);
+  EXPECT_NEAR(s.orientation.angle(), 200, 1e-9);
+  EXPECT_NEAR(turn_to(-1), 30, 0.1);
+  EXPECT_NEAR(turn_to(360), 0, 0.1);
+  EXPECT_NEAR(turn_to(0), 0, 0.1);
+  s.orientation.demand(true, 45);
+  s.orientation.configure({60, 0.1, 100, acceleration}, period);
+  ASSERT_GT(s.run(0), 0);
+  EXPECT_NEAR(s.deviation(45), 0, 0.1) << "also when the parameters change";
+}
+
+// The mark is 120 deg ahead, and 240 deg behind the start: to it in the direction in which the spindle turns,
+// and to the next passage of 45 deg. Backwards the mark is the angle -1 rev.
+TEST(SpindleOrientation, ASpindleThatIsNotHomedTurnsUntilItsMarkHasPassed) {
+  truth::SpindleTruth truth;
+  truth.mark = 120;
+  const double cases[][2] = {{0, 0.125}, {200, 0.125}, {-200, -1.875}};
+  for (const auto& [speed, expected] : cases) {
+    Oriented s(45);
+    s.machine = {};
+    s.machine.configure(acceleration, period, &truth);
+    for (int i = 0; i < 20; ++i) s.step(speed);
+    ASSERT_FALSE(s.status().homed);
+    s.orientation.demand(true);
+    ASSERT_GT(s.run(speed), 0) << speed;
+    EXPECT_TRUE(s.status().homed);
+    EXPECT_LE(s.steepest, period_speed + 1e-6);
+    EXPECT_NEAR(s.machine.angle(), expected, 0.1 / 360) << speed;
+  }
+}
+
+SpindleStatus standing_at(double angle) {
+  SpindleStatus status;
+  status.angle = angle;
+  return status;
+}
+
+TEST(SpindleOrientation, IsLostOnceWhenAHeldSpindleIsOutOfItsWindowForSomePeriods) {
+  SpindleOrientation orientation;
+  orientation.configure({90, 0.1, 100, acceleration}, period);
+  const auto lost = [&](double degrees, std::uint32_t periods) {
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < periods; ++i) {
+      orientation.step({}, standing_at(degrees / 360), true);
+      count += orientation.lost() ? 1 : 0;
+    }
+    return count;
+  };
+  orientation.demand(true);
+  EXPECT_EQ(lost(90, 3), 0u);
+  EXPECT_EQ(lost(90.5, orientation_lost_periods - 1), 0u);
+  EXPECT_EQ(lost(90.05, 1), 0u) << "back in time";
+  EXPECT_EQ(lost(89.5, orientation_lost_periods), 1u);
+  EXPECT_EQ(lost(89.5, 1000), 0u) << "once";
+  EXPECT_EQ(lost(90, 1), 0u);
+  EXPECT_EQ(lost(89.5, orientation_lost_periods), 1u) << "and once more";
+  orientation.demand(false);
+  EXPECT_EQ(lost(200, 100), 0u);
+}
+
+TEST(SpindleOrientation, IsNotLostBeforeTheSpindleHasArrived) {
+  SpindleOrientation orientation;
+  orientation.configure({90, 0.1, 100, acceleration}, period);
+  orientation.demand(true);
+  for (int i = 0; i < 3000; ++i) {
+    orientation.step({}, standing_at(0), true);  // it is stuck
+    ASSERT_FALSE(orientation.lost());
+    ASSERT_FALSE(orientation.oriented(standing_at(0)));
+  }
+  orientation.step({}, standing_at(0.25), true);
+  EXPECT_TRUE(orientation.oriented(standing_at(0.25)));
+  for (std::uint32_t i = 0; i < orientation_lost_periods; ++i) orientation.step({}, standing_at(0.26), true);
+  EXPECT_TRUE(orientation.lost());
 }
 
 }  // namespace

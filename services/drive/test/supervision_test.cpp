@@ -161,6 +161,32 @@ TEST_F(Supervision, DrivesThatDoNotComeOnAreAnAlarmAfterEachReset) {
   EXPECT_EQ(core.mode(), Mode::FOLLOWING);
 }
 
+TEST_F(Supervision, ASearchThatTheHardwareEndsHasFailed) {
+  using idl::stream::ReferenceSearch;
+  p.values[100920] = {1, ""};  // X has a home switch
+  core.configure(p, false);
+  const auto search = [&] {
+    idl::stream::Feedback feedback;
+    core.fill(feedback);
+    return feedback.channels.at(0).search;
+  };
+  core.request({0, 1, StreamRequestKind::HOME, 0, 0});
+  periods(10);
+  EXPECT_EQ(core.mode(), Mode::HOMING);
+  EXPECT_EQ(search(), ReferenceSearch::SEARCHES);
+  hardware->starved = 3;
+  periods(1);
+  EXPECT_EQ(core.mode(), Mode::FOLLOWING);
+  EXPECT_EQ(search(), ReferenceSearch::SEARCH_FAILED) << "it had no setpoints";
+  core.request({0, 2, StreamRequestKind::HOME, 0, 0});
+  periods(10);
+  EXPECT_EQ(search(), ReferenceSearch::SEARCHES);
+  hardware->on = false;
+  periods(1);
+  EXPECT_EQ(core.mode(), Mode::OFF);
+  EXPECT_EQ(search(), ReferenceSearch::SEARCH_FAILED);
+}
+
 // Otherwise the alarm would come again with the reset, and whoever reset it would not see that it had ended.
 TEST_F(Supervision, AResetInThePeriodOfTheAlarmGivesTheDrivesTheirWholeTimeAgain) {
   hardware->on = false;

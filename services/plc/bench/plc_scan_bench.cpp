@@ -34,7 +34,7 @@ struct AcMachine {
   }
   /// Until the function is finished; false when the PLC waits for nothing any longer.
   bool finish(idl::channel::AuxiliaryKind kind, std::uint32_t code) {
-    core.set_request({0, ++number, kind, code, 0, 0});
+    core.set_request({0, ++number, kind, code, 0, false, 0});
     core.advance(tick);
     for (;;) {
       const auto done = core.take_done();

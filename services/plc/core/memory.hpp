@@ -38,7 +38,7 @@ struct Registers {
 
 enum class HandshakeState : std::uint32_t { none, waiting, strobe, done };
 
-/// A pending M, S or T of one channel.
+/// A pending M, S, T or E of one channel.
 struct Handshake {
   HandshakeState state = HandshakeState::none;
   std::uint32_t number = 0;
@@ -47,14 +47,18 @@ struct Handshake {
   double value = 0;
   std::uint64_t cycle = 0;
   std::uint32_t failed = 0;
+  std::uint32_t has_value = 0;  ///< 1: an M with an angle, an S that is a surface speed. Older files have
+                                ///< nothing at its place
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("state", self.state), visit("number", self.number), visit("kind", self.kind);
     visit("code", self.code), visit("value", self.value), visit("cycle", self.cycle);
     visit("failed", self.failed);
+    if (!std::is_const_v<Self> || self.has_value != 0) visit("has_value", self.has_value);
   }
 };
+static_assert(sizeof(Handshake) == 40, "retained files keep it");
 
 using st::program_cells;
 
@@ -147,6 +151,21 @@ struct Memory {
 };
 static_assert(std::is_trivially_copyable_v<Memory>);
 
+/// A constant surface speed of a spindle.
+struct SurfaceOrder {
+  double speed = 0;          ///< m/min, signed; 0: none
+  double limit = 0;          ///< 1/min
+  double radius = 0;         ///< mm
+  std::uint8_t channel = 0;  ///< whose X it follows
+  bool operator==(const SurfaceOrder&) const = default;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("speed", self.speed), visit("limit", self.limit), visit("radius", self.radius);
+    visit("channel", self.channel);
+  }
+};
+
 /// The received state of the machine, which is not retained: a restarted process receives it again.
 struct View {
   struct Channel {
@@ -167,7 +186,35 @@ struct View {
       visit("client", self.client), visit("number", self.number);
     }
   };
+  /// What the drive says of a spindle beside its speed, and what it was ordered last.
+  struct Spindle {
+    bool homed = false, synchronized = false;
+    bool releases = false;    ///< the drive is to give up the angle of before, so that it reports the new one
+    bool new_angle = false;   ///< `synchronized` may still be of the coupling of before
+    bool reverse = false;     ///< of the coupling
+    std::uint8_t master = 0;  ///< from 1; 0: it follows none
+    std::int32_t orientation = -1;     ///< 0.01 deg, that was ordered last; -1: 10a945
+    std::int32_t coupling_angle = 0;   ///< 0.01 deg
+    std::uint64_t coupling_since = 0;  ///< PLC time in ms at which the coupling was ordered
+    SurfaceOrder surface;              ///< in place of a speed
+    bool new_surface = false;          ///< what the drive says may be of the speed of before
+    bool surface_reached = false;      ///< the drive has the surface speed
+    bool operator==(const Spindle&) const = default;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("homed", self.homed), visit("synchronized", self.synchronized);
+      visit("releases", self.releases), visit("new_angle", self.new_angle), visit("reverse", self.reverse);
+      visit("master", self.master), visit("orientation", self.orientation);
+      visit("coupling_angle", self.coupling_angle), visit("coupling_since", self.coupling_since);
+      if (!std::is_const_v<Self> || self.surface != SurfaceOrder{}) {
+        visit("surface", self.surface), visit("new_surface", self.new_surface);
+        visit("surface_reached", self.surface_reached);
+      }
+    }
+  };
   std::array<Channel, channel_count> channels{};
+  std::array<Spindle, spindle_count> spindles{};
   std::array<Press, 8>
       presses{};  ///< of the emergency stop that were taken, the newest first; number 0: none
   std::array<double, spindle_count> spindle_actual{};     ///< 1/min
@@ -190,6 +237,8 @@ struct View {
     visit("spindles_received", self.spindles_received), visit("executed", self.executed);
     visit("drive_seen", self.drive_seen), visit("stopped_waiting", self.stopped_waiting);
     visit("changed", self.changed), visit("press_acted", self.press_acted);
+    if (!std::is_const_v<Self> || self.spindles != std::array<Spindle, spindle_count>{})
+      visit("spindles", self.spindles);
   }
 };
 

@@ -12,10 +12,6 @@
 namespace trunnion::plc {
 namespace {
 
-constexpr double speed_tolerance = 0.05;          // share of the commanded speed
-constexpr double slowest_tolerance = 5;           // 1/min, for low speeds and standstill
-constexpr std::uint64_t spindle_timeout = 30000;  // ms for which virtual time continues for a spindle
-
 std::int64_t percent(double fraction) { return std::llround(fraction * 100); }
 
 }  // namespace
@@ -38,25 +34,21 @@ PlcCore::PlcCore() {
   for (std::size_t i = 0; i < coolant_.size(); ++i) coolant_[i] = interface_address("coolant", i);
   for (std::size_t c = 0; c < channel_count; ++c) {
     const auto of = [c](const char* text) { return interface_address(text, c); };
-    channel_symbols_[c] = {of("channel_running"),  of("channel_held"),  of("channel_idle"),
-                           of("channel_homed"),    of("channel_rtcp"),  of("channel_reset"),
-                           of("mode_auto"),        of("mode_mdi"),      of("mode_jog"),
-                           of("mode_ref"),         of("m_strobe"),      of("s_strobe"),
-                           of("t_strobe"),         of("m_code"),        of("s_value"),
-                           of("t_code"),           of("feed_override"), of("rapid_override"),
-                           of("spindle_override"), of("active_tool"),   of("fin"),
-                           of("fin_failed")};
+    channel_symbols_[c] = {
+        of("channel_running"), of("channel_held"),  of("channel_idle"),   of("channel_homed"),
+        of("channel_rtcp"),    of("channel_reset"), of("mode_auto"),      of("mode_mdi"),
+        of("mode_jog"),        of("mode_ref"),      of("m_strobe"),       of("s_strobe"),
+        of("t_strobe"),        of("e_strobe"),      of("m_code"),         of("m_angle"),
+        of("s_value"),         of("t_code"),        of("e_order"),        of("e_spindle"),
+        of("e_value"),         of("feed_override"), of("rapid_override"), of("spindle_override"),
+        of("active_tool"),     of("fin"),           of("fin_failed"),     of("s_surface_speed"),
+        of("s_limit"),         of("s_radius")};
     for (const auto address : {channel_symbols_[c].feed_override, channel_symbols_[c].rapid_override,
                                channel_symbols_[c].spindle_override})
       store(memory_.registers, address, 100);  // until the channel publishes its values
   }
   find_control();
-  for (std::size_t s = 0; s < spindle_count; ++s) {
-    const auto of = [s](const char* text) { return interface_address(text, s); };
-    spindle_symbols_[s] = {of("spindle_at_speed"), of("spindle_actual"), of("spindle_oriented"),
-                           of("spindle_speed"),    of("spindle_enable"), of("spindle_counterclockwise"),
-                           of("spindle_orient")};
-  }
+  find_spindles();
 }
 
 void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time) {
@@ -67,7 +59,10 @@ void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time
     axis_exists_[axis.number] = 1;
     axis_names_.push_back(axis.name);
   }
-  spindles_ = std::min(machine::spindles(parameters).size(), spindle_count);
+  const auto spindles = machine::spindles(parameters);
+  spindles_ = std::min(spindles.size(), spindle_count);
+  for (std::size_t s = 0; s < spindles_; ++s)
+    speed_window_[s] = parameters.get(parameter::speed_window, spindles[s].number) / 100;
   const bool continues = !configured() && memory_.tick > 0;  // what restore() has left to do counts
   period_us_ = static_cast<std::uint64_t>(parameters.integer(parameter::interpolation_cycle));
   main_part_ = parameters.integer(parameter::plc2_statements);
@@ -100,6 +95,8 @@ void PlcCore::actuate_switches(const std::vector<double>& position) {
 
 void PlcCore::restore(const Memory& memory) {
   memory_ = memory;
+  // What the drive holds by them is no new order.
+  for (std::size_t s = 0; s < spindle_count; ++s) view_.spindles[s].orientation = ordered_orientation(s);
   if (!loaded_) return;
   if (!structured_.fits(memory_.program)) drop_forces_of_variables();
   const auto before = memory_.program;
@@ -186,7 +183,22 @@ void PlcCore::set_request(const idl::channel::AuxiliaryRequest& request) {
     if (h.state == HandshakeState::done) done_.push_back({request.channel, h.number, h.failed != 0});
     return;
   }
-  h = {HandshakeState::waiting, request.number, request.kind, request.code, request.value, request.cycle, 0};
+  const bool has_angle = request.kind == AuxiliaryKind::M && request.has_value;
+  const bool surface = request.kind == AuxiliaryKind::S && request.surface;
+  h = {HandshakeState::waiting,
+       request.number,
+       request.kind,
+       request.code,
+       request.value,
+       request.cycle,
+       0,
+       has_angle || surface ? 1u : 0u};
+  // Not with the strobe: the handshake, which older files have, has no place for them.
+  if (surface) {
+    const auto& s = channel_symbols_[request.channel];
+    store(memory_.registers, s.s_limit, std::llround(std::floor(std::clamp(request.limit, 0.0, 65535.0))));
+    store(memory_.registers, s.s_radius, std::llround(std::clamp(request.radius * 10, 0.0, 65535.0)));
+  }
   view_.stopped_waiting = false;
   view_.changed = true;
 }
@@ -198,18 +210,12 @@ void PlcCore::set_feedback(const idl::stream::Feedback& feedback) {
   for (auto& channel : view_.channels) channel.active = false;
   for (const auto& echo : feedback.channels)
     if (echo.channel < channel_count) view_.channels[echo.channel].active = echo.active;
-  const auto spindles = std::min(spindle_count, feedback.spindle_speed.size());
-  view_.spindles_received = static_cast<std::uint32_t>(spindles);
-  std::copy_n(feedback.spindle_speed.begin(), spindles, view_.spindle_actual.begin());
-  for (std::size_t s = 0; s < spindle_count; ++s)
-    view_.oriented[s] = s < feedback.spindle_oriented.size() && feedback.spindle_oriented[s] != 0;
+  take_spindles(feedback);
   if (feedback.press_number != 0) press_emergency_stop({feedback.press_client, feedback.press_number});
   input(drive_present_, 1);
   input(probe_contact_, feedback.skip_inputs & 1);
   input(drives_on_, !feedback.enabled.empty() && std::all_of(feedback.enabled.begin(), feedback.enabled.end(),
                                                              [](std::uint8_t on) { return on != 0; }));
-  for (std::size_t s = 0; s < std::min(spindles_, spindles); ++s)
-    input(spindle_symbols_[s].actual, std::llround(std::abs(view_.spindle_actual[s])));
   actuate_switches(feedback.position);
   check_spindles();
 }
@@ -241,6 +247,12 @@ bool PlcCore::waits_for_standstill() const {
   return false;
 }
 
+bool PlcCore::waits_for_run() const {
+  for (std::size_t c = 0; c < channel_count; ++c)
+    if (memory_.handshakes[c].state == HandshakeState::waiting && at_standstill(c)) return continues_main();
+  return false;
+}
+
 void PlcCore::give_up_waiting() {
   view_.stopped_waiting = true;
   view_.changed = true;
@@ -252,44 +264,33 @@ void PlcCore::set_strobes(bool present) {
     auto& h = memory_.handshakes[c];
     const auto& s = channel_symbols_[c];
     // A strobe rises after the answer to the one before has fallen, and never in scans for past ticks: the
-    // times after it would count from then.
-    if (present && h.state == HandshakeState::waiting && plc::load(r, s.fin) == 0 && at_standstill(c)) {
+    // times after it would count from then. Nor within a run of the main task that is spread over scans: its
+    // end would answer a function that its beginning has not seen.
+    if (present && !continues_main() && h.state == HandshakeState::waiting && plc::load(r, s.fin) == 0 &&
+        at_standstill(c)) {
       h.state = HandshakeState::strobe;
-      if (h.kind == AuxiliaryKind::M) store(r, s.m_code, h.code);
-      if (h.kind == AuxiliaryKind::S) store(r, s.s_value, std::llround(std::clamp(h.value, 0.0, 65535.0)));
+      if (h.kind == AuxiliaryKind::M) {
+        store(r, s.m_code, h.code);
+        store(r, s.m_angle, h.has_value != 0 ? hundredths(h.value) : no_angle);
+      }
+      if (h.kind == AuxiliaryKind::S) {
+        const double surface = h.has_value != 0 ? std::clamp(h.value * 10, 1.0, 65535.0) : 0;
+        store(r, s.s_value, std::llround(std::clamp(h.value, 0.0, 65535.0)));
+        store(r, s.s_surface_speed, std::llround(surface));
+      }
       if (h.kind == AuxiliaryKind::T) store(r, s.t_code, h.code);
+      if (h.kind == AuxiliaryKind::E) {
+        const auto order = spindle_order(h.code, h.value);
+        store(r, s.e_order, order.order);
+        store(r, s.e_spindle, order.spindle);
+        store(r, s.e_value, order.value);
+      }
     }
     const bool strobe = h.state == HandshakeState::strobe;
     store(r, s.m_strobe, strobe && h.kind == AuxiliaryKind::M);
     store(r, s.s_strobe, strobe && h.kind == AuxiliaryKind::S);
     store(r, s.t_strobe, strobe && h.kind == AuxiliaryKind::T);
-  }
-}
-
-bool PlcCore::at_speed(std::size_t s) const {
-  if (s >= spindles_) return true;
-  if (s >= view_.spindles_received) return view_.drive_seen;
-  const double command = memory_.spindle_command[s];
-  return std::abs(view_.spindle_actual[s] - command) <=
-         std::max(speed_tolerance * std::abs(command), slowest_tolerance);
-}
-
-void PlcCore::check_spindles() {
-  auto& r = memory_.registers;
-  for (std::size_t s = 0; s < spindle_count; ++s) {
-    const auto& symbols = spindle_symbols_[s];
-    const bool orients = plc::load(r, symbols.orient) != 0 && !emergency_stop();
-    if (orients && !view_.orients[s]) view_.orient_since[s] = memory_.scans, view_.oriented[s] = false;
-    view_.orients[s] = orients;
-    const bool on = plc::load(r, symbols.enable) != 0 && !orients && !emergency_stop();
-    const double speed = on ? plc::load(r, symbols.speed) : 0;
-    const double command = plc::load(r, symbols.counterclockwise) != 0 && speed > 0 ? -speed : speed;
-    if (command != memory_.spindle_command[s]) {
-      memory_.spindle_command[s] = command;
-      memory_.spindle_since[s] = memory_.scans;
-    }
-    input(symbols.at_speed, at_speed(s));
-    input(symbols.oriented, orients && (view_.oriented[s] || s >= spindles_));
+    store(r, s.e_strobe, strobe && h.kind == AuxiliaryKind::E);
   }
 }
 
@@ -297,8 +298,11 @@ void PlcCore::finish() {
   for (std::size_t c = 0; c < channel_count; ++c) {
     auto& h = memory_.handshakes[c];
     const auto& s = channel_symbols_[c];
-    if (h.state != HandshakeState::strobe || plc::load(memory_.registers, s.fin) == 0) continue;
-    h.failed = static_cast<std::uint32_t>(plc::load(memory_.registers, s.fin_failed));
+    if (h.state != HandshakeState::strobe) continue;
+    // Programs without orders for spindles would never answer one.
+    const bool unknown = h.kind == AuxiliaryKind::E && !structured_.uses(s.e_order.area, s.e_order.index);
+    if (!unknown && plc::load(memory_.registers, s.fin) == 0) continue;
+    h.failed = unknown ? 1u : static_cast<std::uint32_t>(plc::load(memory_.registers, s.fin_failed));
     h.state = HandshakeState::done;
     done_.push_back({static_cast<std::uint16_t>(c), h.number, h.failed != 0});
   }
@@ -365,7 +369,7 @@ void PlcCore::advance(std::uint64_t tick) {
     scan(memory_.scans % main_period == 0 || continues_main(), false);
   }
   if (view_.changed || ended || structured_.timer_due(now)) settle();
-  view_.changed = false;
+  view_.changed = waits_for_run();
   view_.press_acted = view_.press_acted || emergency_stop();
   unscanned_.reset();
 }
@@ -404,20 +408,15 @@ idl::plc::Outputs PlcCore::outputs() const {
     if (plc::load(r, slave_off_[a]) != 0) outputs.axis_enable[a] |= slave_is_off;
   for (const auto address : coolant_)
     outputs.coolant.push_back(!outputs.emergency_stop && plc::load(r, address) != 0 ? 1 : 0);
-  bool spindle_moves = false;
-  for (std::size_t s = 0; s < spindles_; ++s) {
-    outputs.spindle_speed.push_back(outputs.emergency_stop ? 0 : memory_.spindle_command[s]);
-    outputs.spindle_orient.push_back(view_.orients[s] ? 1 : 0);
-    spindle_moves =
-        spindle_moves || (!at_speed(s) && memory_.scans - memory_.spindle_since[s] < spindle_timeout) ||
-        (view_.orients[s] && !view_.oriented[s] && memory_.scans - view_.orient_since[s] < spindle_timeout);
-  }
+  set_spindles(outputs);
+  bool moves = false;
+  for (std::size_t s = 0; s < spindles_; ++s) moves = moves || spindle_moves(s);
   set_control(outputs);
   outputs.run_until_tick = memory_.tick;
   if (period_us_ > 0) {
     auto until = structured_.next_timer_end(memory_.scans);
     if (continues_main()) until = std::min(until.value_or(~std::uint64_t{0}), memory_.scans + 1);
-    if (spindle_moves) until = std::min(until.value_or(~std::uint64_t{0}), memory_.scans + main_period);
+    if (moves) until = std::min(until.value_or(~std::uint64_t{0}), memory_.scans + main_period);
     if (until) outputs.run_until_tick += (*until * 1000 - memory_.now_us + period_us_ - 1) / period_us_;
   }
   return outputs;

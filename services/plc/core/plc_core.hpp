@@ -22,6 +22,20 @@ inline constexpr std::uint64_t most_catch_up =
     200;                                  ///< scans at once; older ones are skipped, timers stay correct
 inline constexpr int most_settling = 16;  ///< scans at the same time until the image is stable
 
+/// Of m_angle and spindle_orient_angle: none.
+inline constexpr std::int32_t no_angle = 65535;
+/// Whole hundredths of a degree, 0 .. 35999.
+std::int32_t hundredths(double degrees);
+
+/// An order for a spindle as the registers e_order, e_spindle and e_value have it.
+struct SpindleOrder {
+  std::int32_t order = 0;  ///< 0: none that is known
+  std::int32_t spindle = 0;
+  std::int32_t value = 0;
+};
+/// Of `code` and `value` of an AuxiliaryRequest.
+SpindleOrder spindle_order(std::uint32_t code, double value);
+
 inline constexpr std::size_t message_words = st::most_messages / 16;
 
 class PlcCore {
@@ -112,15 +126,19 @@ class PlcCore {
  private:
   struct ChannelSymbols {
     Address running, held, idle, homed, rtcp, reset, mode_auto, mode_mdi, mode_jog, mode_ref;
-    Address m_strobe, s_strobe, t_strobe, m_code, s_value, t_code;
+    Address m_strobe, s_strobe, t_strobe, e_strobe, m_code, m_angle, s_value, t_code;
+    Address e_order, e_spindle, e_value;
     Address feed_override, rapid_override, spindle_override, tool, fin, fin_failed;
+    Address s_surface_speed, s_limit, s_radius;
   };
   struct ControlSymbols {
     Address start_inhibit, manual_inhibit, sets_overrides, feed_override, rapid_override, spindle_override;
-    Address refused, alarm;
+    Address refused, alarm, tap_stop;
   };
   struct SpindleSymbols {
-    Address at_speed, actual, oriented, speed, enable, counterclockwise, orient;
+    Address at_speed, actual, oriented, homed, synchronized, position;
+    Address speed, enable, counterclockwise, orient, orient_by_angle, orient_angle;
+    Address gear, master, master_angle, reverse, integral, surface_speed, surface_channel;
   };
   void input(Address address, std::int64_t value);
   void press_emergency_stop(const View::Press& press);
@@ -128,6 +146,8 @@ class PlcCore {
   void scan(bool main, bool present);
   void run_task(TaskName task);
   bool continues_main() const { return memory_.program.main.interrupted != 0; }
+  /// A request waits for the end of that run alone.
+  bool waits_for_run() const;
   void settle();
   void find_control();
   void set_control(idl::plc::Outputs& outputs) const;
@@ -138,7 +158,18 @@ class PlcCore {
   void drop_forces_of_variables();
   void actuate_switches(const std::vector<double>& position);
   void set_strobes(bool present);
+  void find_spindles();
+  void take_spindles(const idl::stream::Feedback& feedback);
   void check_spindles();
+  bool check_orientation(std::size_t spindle);
+  void check_coupling(std::size_t spindle);
+  SurfaceOrder ordered_surface_speed(std::size_t spindle) const;
+  void check_surface_speed(std::size_t spindle, bool on);
+  std::int32_t ordered_orientation(std::size_t spindle) const;
+  std::uint8_t ordered_master(std::size_t spindle) const;
+  bool follows(std::size_t spindle) const;
+  bool spindle_moves(std::size_t spindle) const;
+  void set_spindles(idl::plc::Outputs& outputs) const;
   void finish();
   bool at_speed(std::size_t spindle) const;
   bool at_standstill(std::size_t channel) const;
@@ -161,6 +192,7 @@ class PlcCore {
   std::vector<st::PositionSwitch> switches_;
   st::MessageFile messages_;
   std::size_t spindles_ = 0;
+  std::array<double, spindle_count> speed_window_{};  ///< share of the commanded speed: 10a970
   std::uint64_t period_us_ = 0;
   std::int64_t main_part_ = StructuredText::most_statements;  ///< statements of the main task in one scan
   Memory memory_;

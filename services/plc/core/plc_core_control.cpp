@@ -26,10 +26,10 @@ bool concerns(const st::Message& message, std::size_t channel) {
 void PlcCore::find_control() {
   for (std::size_t c = 0; c < channel_count; ++c) {
     const auto of = [c](const char* text) { return interface_address(text, c); };
-    control_symbols_[c] = {of("start_inhibit"),        of("manual_inhibit"),
-                           of("sets_overrides"),       of("feed_override_order"),
-                           of("rapid_override_order"), of("spindle_override_order"),
-                           of("order_refused"),        of("order_alarm")};
+    control_symbols_[c] = {
+        of("start_inhibit"),       of("manual_inhibit"),       of("sets_overrides"),
+        of("feed_override_order"), of("rapid_override_order"), of("spindle_override_order"),
+        of("order_refused"),       of("order_alarm"),          of("tap_stop")};
   }
   for (std::size_t i = 0; i < message_bits_.size(); ++i) message_bits_[i] = interface_address("message", i);
 }
@@ -49,7 +49,8 @@ bool PlcCore::controls() const {
   const auto decides = [&](const ControlSymbols& symbols) {
     return plc::load(memory_.registers, symbols.start_inhibit) != 0 ||
            plc::load(memory_.registers, symbols.manual_inhibit) != 0 ||
-           plc::load(memory_.registers, symbols.sets_overrides) != 0;
+           plc::load(memory_.registers, symbols.sets_overrides) != 0 ||
+           plc::load(memory_.registers, symbols.tap_stop) != 0;
   };
   return std::any_of(control_symbols_.begin(), control_symbols_.end(), decides);
 }
@@ -66,6 +67,7 @@ idl::plc::ChannelControl PlcCore::control(std::size_t channel) const {
   control.start_inhibit = bit(symbols.start_inhibit);
   control.manual_inhibit = bit(symbols.manual_inhibit);
   control.sets_overrides = bit(symbols.sets_overrides);
+  control.tap_stop = bit(symbols.tap_stop);
   control.feed_override = control.sets_overrides ? share(symbols.feed_override, commands::feed_override) : 1;
   control.rapid_override =
       control.sets_overrides ? share(symbols.rapid_override, commands::rapid_override) : 1;

@@ -56,7 +56,7 @@ std::uint64_t state_digest(const PlcState& state) {
   const auto& m = state.memory;
   for (const auto& h : m.handshakes) {
     digest.add(h.state), digest.add(h.number), digest.add(h.kind), digest.add(h.code);
-    digest.add(h.value), digest.add(h.cycle), digest.add(h.failed);
+    digest.add(h.value), digest.add(h.cycle), digest.add(h.failed), digest.add(h.has_value);
   }
   digest.add(m.now_us), digest.add(m.scans), digest.add(m.tick);
   for (const double command : m.spindle_command) digest.add(command);
@@ -70,6 +70,14 @@ std::uint64_t state_digest(const PlcState& state) {
     digest.add(channel.seen), digest.add(channel.active), digest.add(channel.resets);
   for (const double speed : view.spindle_actual) digest.add(speed);
   digest.add(view.orients), digest.add(view.oriented), digest.add(view.orient_since);
+  for (const auto& spindle : view.spindles) {
+    digest.add(spindle.homed), digest.add(spindle.synchronized), digest.add(spindle.releases);
+    digest.add(spindle.new_angle), digest.add(spindle.reverse), digest.add(spindle.master);
+    digest.add(spindle.orientation), digest.add(spindle.coupling_angle), digest.add(spindle.coupling_since);
+    const auto& surface = spindle.surface;
+    digest.add(surface.speed), digest.add(surface.limit), digest.add(surface.radius);
+    digest.add(surface.channel), digest.add(spindle.new_surface), digest.add(spindle.surface_reached);
+  }
   digest.add(view.spindles_received), digest.add(view.executed), digest.add(view.drive_seen);
   digest.add(view.stopped_waiting), digest.add(view.changed);
   return digest.value();

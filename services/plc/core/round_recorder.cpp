@@ -36,6 +36,8 @@ void RoundRecorder::record(const idl::stream::Feedback& feedback) {
   seen.count = feedback.count;
   seen.tick = feedback.tick;
   seen.spindle_speed = feedback.spindle_speed;
+  seen.spindle_oriented = feedback.spindle_oriented;
+  seen.spindles = feedback.spindles;
   seen.enabled = feedback.enabled;
   for (const auto& echo : feedback.channels) {
     auto& kept = seen.channels.emplace_back();

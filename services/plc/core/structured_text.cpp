@@ -71,6 +71,13 @@ std::span<const st::RegisterAddress> StructuredText::retained_registers() const 
   return programs_.code->retained_registers;
 }
 
+bool StructuredText::uses(st::Area area, std::uint16_t index) const {
+  if (!machine_) return false;
+  const auto& used = programs_.code->registers;
+  return std::any_of(used.begin(), used.end(),
+                     [&](const auto& one) { return one.area == area && one.index == index; });
+}
+
 void StructuredText::put(std::uint32_t cell, std::uint64_t value, ProgramVariables& variables) {
   if (!machine_ || cell < st::image_cells || cell >= machine_->memory().size()) return;
   machine_->memory()[cell] = value;

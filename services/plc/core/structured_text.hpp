@@ -49,6 +49,8 @@ class StructuredText {
   void power_up(const ProgramVariables& kept, ProgramVariables& variables);
   /// Registers that the programs keep besides the retained areas.
   std::span<const st::RegisterAddress> retained_registers() const;
+  /// Whether the programs read or write a register.
+  bool uses(st::Area area, std::uint16_t index) const;
   /// Whether the variables are those of these programs.
   bool fits(const ProgramVariables& variables) const;
   /// Puts a value into a cell of the memory, that of a variable, also into `variables`.

@@ -47,9 +47,13 @@ TEST(PlcAllocation, NoneInTheScansOfTheAcMachineWhileItsInputsChange) {
     state.reset_count = static_cast<std::uint32_t>(step / 100);
     constexpr std::uint32_t codes[] = {3, 4, 5, 6, 8, 9, 10, 19, 30, 40};
     using enum AuxiliaryKind;
-    const idl::channel::AuxiliaryRequest request{
-        0,   ++number, random() % 4 == 0 ? T : random() % 4 == 0 ? S : M, codes[random() % std::size(codes)],
-        500, 10};
+    const idl::channel::AuxiliaryRequest request{0,
+                                                 ++number,
+                                                 random() % 4 == 0 ? T : random() % 4 == 0 ? S : M,
+                                                 codes[random() % std::size(codes)],
+                                                 500,
+                                                 false,
+                                                 10};
     feedback.tick = tick, feedback.first = static_cast<std::uint64_t>(step);
     feedback.position[0] = static_cast<double>(random() % 1000), feedback.skip_inputs = random() % 2;
     feedback.spindle_speed.assign(1, core.memory().spindle_command[0]);

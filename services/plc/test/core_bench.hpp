@@ -41,7 +41,9 @@ struct Bench {
     batch.skip_inputs = skip_inputs;
     const auto outputs = core.outputs();
     for (std::size_t s = 0; s < outputs.spindle_orient.size() && s < 2; ++s)
-      batch.spindle_oriented.push_back(outputs.spindle_orient[s] != 0 && speed[s] == 0 ? 1 : 0);
+      batch.spindle_oriented.push_back(
+          late_orientation || (outputs.spindle_orient[s] != 0 && speed[s] == 0) ? 1 : 0);
+    batch.spindles = spindles;
     core.set_feedback(batch);
     step();
   }
@@ -66,8 +68,23 @@ struct Bench {
   }
   void request(AuxiliaryKind kind, std::uint32_t code, double value = 0, std::uint16_t channel = 0) {
     ++number;
-    core.set_request({channel, number, kind, code, value, executed});
+    core.set_request({channel, number, kind, code, value, false, executed});
     step();
+  }
+  /// An M with an angle in deg.
+  void request_angle(std::uint32_t code, double angle) {
+    ++number;
+    core.set_request({0, number, AuxiliaryKind::M, code, angle, true, executed});
+    step();
+  }
+  /// S with G96: m/min, 1/min, mm.
+  void request_surface(double speed, double limit, double radius) {
+    ++number;
+    core.set_request({0, number, AuxiliaryKind::S, 0, speed, false, executed, true, limit, radius});
+    step();
+  }
+  std::uint16_t g(const char* name, std::size_t index) const {
+    return core.memory().registers.g[interface_address(name, index).index];
   }
   bool done() const { return !finished.empty() && finished.back().number == number; }
 
@@ -77,7 +94,9 @@ struct Bench {
   std::uint32_t number = 0;
   std::uint8_t skip_inputs = 0;
   std::array<double, 2> speed{};
-  double ramp = 2;  // 1/min in each tick of 1 ms
+  std::vector<idl::stream::SpindleState> spindles;  ///< that the drive reports
+  bool late_orientation = false;  ///< the drive has not taken the newest outputs: it is oriented as before
+  double ramp = 2;                // 1/min in each tick of 1 ms
   std::vector<idl::plc::AuxiliaryDone> finished;
 };
 

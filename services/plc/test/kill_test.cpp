@@ -106,7 +106,7 @@ TEST(Kill, AFunctionIsCarriedOutOnceHoweverOftenThePlcIsKilled) {
     core.configure(axis_parameters(), false);
     core.load(translate(files, true));
   };
-  const idl::channel::AuxiliaryRequest request{0, 1, idl::channel::AuxiliaryKind::M, 3, 0, 0};
+  const idl::channel::AuxiliaryRequest request{0, 1, idl::channel::AuxiliaryKind::M, 3, 0, false, 0};
   for (std::uint64_t killed = 6; killed < 40; ++killed) {
     Memory memory;
     std::vector<idl::plc::AuxiliaryDone> done;

@@ -50,6 +50,17 @@ TEST(PlcControl, NothingIsSaidOfChannelsOfWhichTheProgramsDecideNothing) {
   EXPECT_EQ(channels[3].reason, "");
 }
 
+TEST(PlcControl, AStopOfATapIsThatOfItsRegister) {
+  Controlled plc;
+  plc.input(20, 16);  // bit 4
+  const auto channels = plc.core.outputs().channels;
+  ASSERT_EQ(channels.size(), 1u);
+  EXPECT_TRUE(channels[0].tap_stop);
+  EXPECT_FALSE(channels[0].start_inhibit);
+  plc.input(20, 0);
+  EXPECT_TRUE(plc.core.outputs().channels.empty());
+}
+
 TEST(PlcControl, InhibitsAndOverridesAreThoseOfTheRegistersWithinTheirLimits) {
   Controlled plc;
   plc.input(20, 3);

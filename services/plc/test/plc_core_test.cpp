@@ -205,7 +205,7 @@ TEST(Handshake, ARepeatedRequestIsConfirmedAgainButNotCarriedOutAgain) {
   bench.request(M, 6);
   bench.run();
   ASSERT_EQ(bench.finished.size(), 1u);
-  bench.core.set_request({0, bench.number, M, 6, 0, bench.executed});
+  bench.core.set_request({0, bench.number, M, 6, 0, false, bench.executed});
   bench.step();
   EXPECT_EQ(bench.finished.size(), 2u);
   EXPECT_EQ(bench.run(), 0u);
@@ -214,7 +214,7 @@ TEST(Handshake, ARepeatedRequestIsConfirmedAgainButNotCarriedOutAgain) {
 TEST(Handshake, AWithdrawnRequestIsNotFinished) {
   Bench bench;
   bench.request(M, 6);
-  bench.core.set_request({0, bench.number, NO_AUXILIARY, 0, 0, bench.executed});
+  bench.core.set_request({0, bench.number, NO_AUXILIARY, 0, 0, false, bench.executed});
   bench.run();
   EXPECT_TRUE(bench.finished.empty());
 }
@@ -291,7 +291,7 @@ TEST(Restart, AProcessThatComesBackGoesOnWhereItWas) {
   EXPECT_EQ(fresh.core.outputs(), target);
   fresh.tick = bench.tick, fresh.speed = bench.speed, fresh.number = bench.number,
   fresh.executed = bench.executed;
-  fresh.core.set_request({0, bench.number, M, 6, 0, bench.executed});
+  fresh.core.set_request({0, bench.number, M, 6, 0, false, bench.executed});
   fresh.feedback();
   const auto rest = fresh.run();
   EXPECT_TRUE(fresh.done());

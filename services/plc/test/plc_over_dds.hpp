@@ -43,7 +43,7 @@ class Machine {
     feedback_.write(batch);
   }
   void ask(std::uint32_t number, idl::channel::AuxiliaryKind kind, std::uint32_t code, double value) {
-    request_.write({0, number, kind, code, value, 10});
+    request_.write({0, number, kind, code, value, false, 10});
   }
   /// The drive's side of virtual time, until request `number` is done; 1/min per tick: 2.
   bool run_until_done(std::uint32_t number) {

@@ -79,7 +79,7 @@ class Running {
       recorder_.record(StepKind::CHANNEL_STATE, state);
     }
     if (random_() % 8 == 0) {
-      const idl::channel::AuxiliaryRequest request{0, ++number_, AuxiliaryKind::M, 8, 0, 0};
+      const idl::channel::AuxiliaryRequest request{0, ++number_, AuxiliaryKind::M, 8, 0, false, 0};
       core_.set_request(request);
       recorder_.record(StepKind::AUXILIARY_REQUEST, request);
     }

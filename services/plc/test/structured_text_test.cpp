@@ -92,6 +92,7 @@ void expect_same_logic(const std::string& list_directory, const std::string& mac
                                                            : M,
                                                codes[random() % std::size(codes)],
                                                static_cast<double>(random() % 70000),
+                                               false,
                                                10};
         both([&](PlcCore& core) { core.set_request(request); });
       } else if (choice < 35) {
@@ -157,6 +158,63 @@ TEST(StructuredText, TimersOfVariablesRequestExactlyTheirTime) {
   core.advance(170);
   EXPECT_EQ(core.image().y[16], 1);
   EXPECT_EQ(core.outputs().run_until_tick, 170u);
+}
+
+// A run has 243 statements: IF, FOR and 120 of its body with 120 steps back, fin. So it takes two scans of at
+// most 200, and the scan of tick 110, the tenth behind 100, leaves it in the middle.
+TEST(StructuredText, AFunctionThatComesWithinARunOfTheMainTaskIsCarriedOutByTheNextOne) {
+  auto core = core_of(R"(PROGRAM main
+VAR i : INT; n : DINT; END_VAR
+IF m_strobe_0 THEN
+  %Y16.0 := TRUE;
+END_IF;
+FOR i := 1 TO 120 DO
+  n := n + 1;
+END_FOR;
+fin_0 := m_strobe_0;
+END_PROGRAM
+)");
+  idl::stream::Feedback feedback;
+  feedback.first = 10;
+  feedback.channels.resize(1);
+  core.set_feedback(feedback);
+  core.advance(100);
+  core.advance(110);
+  ASSERT_NE(core.memory().program.main.interrupted, 0u);
+  core.set_request({0, 1, AuxiliaryKind::M, 7, 0, false, 10});
+  core.advance(110);
+  EXPECT_EQ(core.take_done().size(), 1u);
+  EXPECT_EQ(core.image().y[16] & 1, 1);
+}
+
+// 10,003 statements are 51 scans, more than those at one time.
+TEST(StructuredText, AFunctionIsCarriedOutHoweverLongTheRunIsThatItWaitsFor) {
+  auto core = core_of(R"(PROGRAM main
+VAR i : INT; n : DINT; END_VAR
+IF m_strobe_0 THEN
+  %Y16.0 := TRUE;
+END_IF;
+FOR i := 1 TO 5000 DO
+  n := n + 1;
+END_FOR;
+fin_0 := m_strobe_0;
+END_PROGRAM
+)");
+  idl::stream::Feedback feedback;
+  feedback.first = 10;
+  feedback.channels.resize(1);
+  core.set_feedback(feedback);
+  core.advance(100);
+  ASSERT_NE(core.memory().program.main.interrupted, 0u);
+  core.set_request({0, 1, AuxiliaryKind::M, 7, 0, false, 10});
+  std::uint64_t tick = 100;
+  std::size_t done = 0;
+  for (; done == 0 && tick < 300; ++tick) {
+    core.advance(tick);
+    done = core.take_done().size();
+  }
+  EXPECT_EQ(done, 1u);
+  EXPECT_EQ(core.image().y[16] & 1, 1);
 }
 
 class DeviceDirectory {

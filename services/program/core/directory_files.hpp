@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The files of the program store in a directory of the disk.
 #pragma once
 
 #include "files.hpp"

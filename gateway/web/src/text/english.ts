@@ -114,6 +114,15 @@ export const english = {
   followingError: "Following error",
   technology: "Feed, spindle and tool",
   programmed: "prog.",
+  spindleStopped: "stopped",
+  spindleAccelerating: "changes its speed",
+  spindleAtSpeed: "at speed",
+  spindlePositioning: "turns to its angle",
+  spindleOriented: "oriented",
+  spindleFollowsPath: "follows the path",
+  spindleSynchronizing: "synchronizing",
+  spindleSynchronized: "synchronized",
+  spindleNotHomed: "no index mark yet",
   activeCodes: "Active G codes",
 
   // Controls

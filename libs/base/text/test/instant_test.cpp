@@ -11,6 +11,7 @@ TEST(Instant, IsIso8601InUtcAndCutToItsDecimals) {
   EXPECT_EQ(instant(0), "1970-01-01T00:00:00.000Z");
   EXPECT_EQ(instant(1'000'000'000'250'999'999), "2001-09-09T01:46:40.250Z");
   EXPECT_EQ(instant(1'000'000'000'000'000'042, 9), "2001-09-09T01:46:40.000000042Z");
+  EXPECT_EQ(whole_second(1'000'000'000), "2001-09-09T01:46:40Z");
 }
 
 }  // namespace

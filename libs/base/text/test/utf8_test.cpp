@@ -58,5 +58,11 @@ TEST(Shortened, IsNeverLongerThanItMayBe) {
   }
 }
 
+// The bytes of the letter A with a diaeresis, c3 84, stay.
+TEST(LowerCase, ChangesTheLettersAToZAlone) {
+  EXPECT_EQ(lower_case("G43.4 Az[@"), "g43.4 az[@");
+  EXPECT_EQ(lower_case("\xc3\x84"), "\xc3\x84");
+}
+
 }  // namespace
 }  // namespace trunnion::text

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Keeps Cyclone DDS on the loopback interface: it binds its sockets to no address.
 #pragma once
 
 namespace trunnion::bus {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Who has written a message, from the discovery of Cyclone DDS.
 #pragma once
 
 #include <dds/dds.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The end of a process with DDS Security, which Cyclone DDS needs help with.
 #pragma once
 
 namespace trunnion::bus {

@@ -73,6 +73,14 @@ TEST(BatchDifference, ShapeCounts) {
   other.count = 3, other.setpoints.resize(9);
   EXPECT_THAT(difference(batch(), other)->text, HasSubstr("count: 4 and 3"));
   other = batch();
+  other.follows_spindle = true;
+  EXPECT_FALSE(same_values(batch(), other));
+  EXPECT_THAT(difference(batch(), other)->text, HasSubstr("follows spindle: 0 and 1"));
+  other = batch();
+  other.turning_radius = {40};
+  EXPECT_FALSE(same_values(batch(), other));
+  EXPECT_THAT(difference(batch(), other)->text, HasSubstr("length of turning radius: 0 and 1"));
+  other = batch();
   other.ends = true;
   EXPECT_THAT(difference(batch(), other)->text, HasSubstr("ends: 0 and 1"));
 }
@@ -87,6 +95,10 @@ TEST(BatchDifference, OfPathBatchesTheToolAndTheBatchCount) {
   b = a;
   b.transformation = idl::stream::Transformation::RTCP;
   EXPECT_THAT(difference(a, b)->text, HasSubstr("transformation: 0 and 1"));
+  b = a;
+  b.follows_spindle = true;
+  EXPECT_FALSE(same_values(a, b));
+  EXPECT_THAT(difference(a, b)->text, HasSubstr("follows spindle: 0 and 1"));
 }
 
 // Property over 2000 seeded changes of one value: found exactly when the batches are not the same, and in the

@@ -127,6 +127,26 @@ TEST_F(StageInACluster, GoesOnAfterBatchesThatAreNotWholeOrOfNoChannel) {
   EXPECT_TRUE(stage.health().in_step) << stage.health().detail;
 }
 
+TEST_F(StageInACluster, PassesTheAnglesOfAThreadOnAsTheyAre) {
+  auto in = stage_input(4, 100, 1);
+  in.spindle_axis = 5, in.follows_spindle = true;
+  for (int i = 0; i < 8; ++i) in.spindle.push_back(-3 - 0.05 * i);
+  in.turning_radius.assign(8, 40);
+  in.snapshot.in_thread = true, in.snapshot.thread_origin = -2.5;
+  input.write(in);
+  AxisBatch out;
+  EXPECT_TRUE(until([&] {
+    while (output.take(out))
+      if (out.epoch == 4) return true;
+    return false;
+  }));
+  EXPECT_TRUE(out.follows_spindle);
+  EXPECT_EQ(out.spindle_axis, 5);
+  EXPECT_EQ(out.spindle, in.spindle);
+  EXPECT_EQ(out.turning_radius, in.turning_radius);
+  EXPECT_EQ(out.snapshot, in.snapshot);
+}
+
 TEST_F(StageInACluster, AResetEndsTheWaitForParametersThatNobodyHas) {
   input.write(stage_input(4, 100, 77));
   EXPECT_TRUE(until([&] { return node.alarms().active(alarm::revision_unknown, 0); }));

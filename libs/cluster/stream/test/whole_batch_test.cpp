@@ -63,7 +63,11 @@ TEST(WholeBatch, APathBatchWhoseRowsAreNotThereIsNot) {
   EXPECT_EQ(fault([](auto& f) { f.lines.clear(); }), "lines: 0 values, must be 4 rows of 1");
   EXPECT_EQ(fault([](auto& f) { f.states.resize(8); }), "states: 8, must be 0 to 4");
   EXPECT_EQ(fault([](auto& f) { f.spindle = {1}; }), "spindle: 1 values, must be 4 rows of 1");
+  EXPECT_EQ(fault([](auto& f) { f.turning_radius = {1}; }), "turning_radius: 1 values, must be 4 rows of 1");
+  EXPECT_EQ(fault([](auto& f) { f.turning_radius.assign(4, 40); }), "");
   EXPECT_EQ(fault([](auto& f) { f.setpoints[35] = 1e300; }), "setpoints: farther than 1e12 mm or deg");
+  EXPECT_EQ(fault([](auto& f) { f.follows_spindle = true; }), "spindle: 0 values, must be 4 rows of 1")
+      << "a thread whose angles are not there";
   EXPECT_NE(fault([](auto& f) { f.setpoints[0] = std::numeric_limits<double>::quiet_NaN(); }), "");
   EXPECT_EQ(fault([](auto& f) { f.first = ~0ull - 2; }).substr(0, 27), "first: 18446744073709551613");
 }

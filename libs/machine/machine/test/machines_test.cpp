@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedMachine,
                                          Shipped{"b-head-c-table", "CB"},
                                          Shipped{"nutating-b-head-c-table", "CB"}, Shipped{"four-axis", "A"},
                                          Shipped{"gantry-cb-head", "CB"}, Shipped{"two-channel", ""},
-                                         Shipped{"hal-sim-xyz", ""}),
+                                         Shipped{"hal-sim-xyz", ""}, Shipped{"lathe", ""}),
                          [](const auto& machine) {
                            std::string name = machine.param.name;
                            std::replace(name.begin(), name.end(), '-', '_');
@@ -76,7 +76,7 @@ TEST(ShippedMachines, are_all_in_the_list_above) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(TRUNNION_MACHINES))
     count += std::filesystem::exists(entry.path() / "machine.yaml") ? 1 : 0;
-  EXPECT_EQ(count, 10u);
+  EXPECT_EQ(count, 11u);
 }
 
 // A copy of a machine's two files, changed.

@@ -73,6 +73,31 @@ TEST(DriveSection, ASpindleHasTheTorqueOfItsCurveAtEverySpeed) {
   EXPECT_EQ(s.torque_at(9000), 20);
 }
 
+TEST(DriveSection, ASpindleHasItsSpeedErrorDisturbanceLoadGearsAndMark) {
+  const auto s = parse_truth(
+                     "spindle_drives: {S: {inertia_kg_m2: 0.05, torque_Nm: [[0, 10], [1000, 10], [2000, 5]],"
+                     " speed_error: -0.001, disturbance: {share: 0.02, hz: 5}, load_torque_Nm: 3,"
+                     " gears: [{ratio: 4}, {ratio: 1}], mark_deg: 120}}",
+                     "truth.yaml", machine())
+                     .spindle_drives.at("S");
+  EXPECT_EQ(s.speed_error, -0.001);
+  EXPECT_EQ(s.ripple, 0.02);
+  EXPECT_EQ(s.ripple_frequency, 5);
+  EXPECT_EQ(s.load_torque, 3);
+  EXPECT_EQ(s.mark, 120);
+  EXPECT_TRUE(s.has_motor());
+  // Gear 1 turns the motor four times: 40 Nm at rest, at 500 1/min 4 times the 5 Nm of 2000 1/min.
+  EXPECT_EQ(s.torque_at(0, 1), 40);
+  EXPECT_EQ(s.torque_at(-500, 1), 20);
+  EXPECT_EQ(s.torque_at(500, 2), 10);
+  EXPECT_EQ(s.torque_at(500, 3), 10) << "no such gear";
+  const auto ideal =
+      parse_truth("spindle_drives: {S: {speed_error: 0.01}}", "truth.yaml", machine()).spindle_drives.at("S");
+  EXPECT_FALSE(ideal.has_motor());
+  EXPECT_FALSE(ideal.mark);
+  EXPECT_EQ(ideal.ripple, 0);
+}
+
 TEST(DriveSection, ASeededMachineHasDrawnDrivesOnDemandAndItsOwnEntriesReplaceThem) {
   const std::string geometry = "random: {grade: worn_trunnion, seed: 7";
   EXPECT_TRUE(parse_truth(geometry + "}", "truth.yaml", machine()).drives.empty());
@@ -129,6 +154,12 @@ TEST(DriveSection, EveryFaultIsOneLineWithItsPlace) {
        "1:60: error: the speeds of the torque curve must rise"},
       {"spindle_drives: {S: {inertia_kg_m2: 1, torque_Nm: [5]}}",
        "1:52: error: expected a point [1/min, Nm]"},
+      {"spindle_drives: {S: {load_torque_Nm: 5}}", "1:21: error: 'inertia_kg_m2' is missing"},
+      {"spindle_drives: {S: {speed_error: 0.6}}", "1:35: error: 0.6 is not within -0.5 .. 0.5"},
+      {"spindle_drives: {S: {disturbance: {hz: 5}}}", "1:35: error: 'share' is missing"},
+      {"spindle_drives: {S: {gears: []}}", "1:29: error: expected 1 to 5 gears"},
+      {"spindle_drives: {S: {gears: [{}]}}", "1:30: error: 'ratio' is missing"},
+      {"spindle_drives: {S: {mark_deg: -1}}", "1:32: error: -1 is not within 0 .. 360"},
       {"random: {grade: new_machine, drives: some}", "1:38: error: 'some' is none of false, true"},
       {"drives: {X: {mechanics: {load_share: 1}}}", "1:38: error: 1 is not within 0.02 .. 0.98"},
       {"drives: {X: {mechanics: {locked_frequency_Hz: 400}}}", "1:25: error: the resonance"},

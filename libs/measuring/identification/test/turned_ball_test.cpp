@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "ac_machine.hpp"
-#include "identification/r_test.hpp"
+#include "identification/r_test_evaluation.hpp"
 #include "identification/true_tips.hpp"
 #include "truth/truth_file.hpp"
 

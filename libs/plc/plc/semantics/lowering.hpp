@@ -96,6 +96,7 @@ class Lowering {
   Variable* own_variable(const Expression& name) const;
   bool is_inherited(const Variable& variable) const;
   std::string hidden(const Variable& variable) const;
+  std::string internal(const std::string& text, const PouDeclaration& of) const;
   std::string scope_problem(const Expression& name) const;
 
   // pointers
@@ -132,6 +133,9 @@ class Lowering {
   void note_read(const Expression& root, const Value& value);
   /// The value of what is written or called: no reading of it.
   Value target(const Expression& e);
+  /// The variable that a reference is made to, which is read and written through it; an error when it may not
+  /// be.
+  Value referred(const Expression& e);
   void check_range(const Type& type, const Value& value, std::int32_t cell);
 
   // calls

@@ -222,13 +222,9 @@ bool Lowering::bind(const Pou& pou, const Expression& e, bool is_block, std::vec
 
 /// The cells of VAR_IN_OUT: the address of the variable that it refers to, of ARRAY[*] also the limits.
 std::vector<std::int32_t> Lowering::reference(const Argument& argument, const Variable& parameter) {
-  const auto value = target(*argument.value);
+  const auto value = referred(*argument.value);
   if (value.is_error()) return {0};
-  auto access = writing();
-  access.reads = true;
-  note(*argument.value, value, access);
   const auto at = argument.value->at;
-  if (!check_writable(value, at)) return {0};
   if (value.place.bit >= 0 || value.place.form != 0) {
     unit_.diagnostics().error(at, "a part of a register cannot be VAR_IN_OUT '" + parameter.text +
                                       "'; copy it to a variable and back");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plc/semantics/lowering.hpp"
+#include "plc/semantics/namespaces.hpp"
 
 namespace trunnion::st {
 
@@ -53,7 +54,14 @@ std::string Lowering::hidden(const Variable& variable) const {
     return "VAR_IN_OUT '" + variable.text + "' is of calls of the body: pass the variable to the method";
   if (variable.access == Access::private_ && variable.declared_in != declaring())
     return "'" + variable.text + "' is PRIVATE in '" + variable.declared_in->declaration->text + "'";
-  return "";
+  return variable.is_internal ? internal(variable.text, *variable.declared_in->declaration) : "";
+}
+
+/// Why what is INTERNAL in a function block must not be used here, or nothing.
+std::string Lowering::internal(const std::string& text, const PouDeclaration& of) const {
+  if (of.space.empty() || (pou_ != nullptr && is_within(pou_->declaration->space, of.space))) return "";
+  return "'" + text + "' of '" + of.text + "' is INTERNAL and visible in the namespace '" +
+         of.text.substr(0, of.text.rfind('.')) + "' only";
 }
 
 /// Why THIS.name or SUPER.name means nothing.
@@ -121,6 +129,10 @@ Value Lowering::call_method(const MethodCall& called, const Expression& e) {
     return failed(at, "the method '" + declaration.text + "' of '" +
                           called.method.declared_in->declaration->text + "' is " +
                           (declaration.access == Access::private_ ? "PRIVATE" : "PROTECTED"));
+  if (is_method && declaration.is_internal)
+    if (const auto refusal = internal(declaration.text, *called.method.declared_in->declaration);
+        !refusal.empty())
+      return failed(at, refusal);
   // A reference may name an instance of the block that contains this one.
   if (!called.instance->is_declared)
     return failed(at, "'" + called.instance->declaration->text + "' contains '" +

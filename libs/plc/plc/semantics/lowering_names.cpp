@@ -163,6 +163,9 @@ Value Lowering::member(const Expression& e) {
     if (!is_public && !(is_program && variable.place.base != Place::Base::none))
       return failed(e.at, "'" + e.text + "' is inside " + value.type->name +
                               "; only its inputs and outputs are accessible");
+    if (is_open && variable.is_internal && !is_program)
+      if (const auto refusal = internal(e.text, *variable.declared_in->declaration); !refusal.empty())
+        return failed(e.at, refusal);
     if (variable.constant.is_constant) return variable.constant;
     value.type = variable.type;
     if (variable.place.base != Place::Base::frame) {

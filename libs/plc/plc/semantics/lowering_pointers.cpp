@@ -87,12 +87,8 @@ Value Lowering::pointer_to(const Expression& of) {
     const auto found = element(of, pointed_by(first, of.at));
     return found.is_error() ? found : pointer_of(found);
   }
-  const auto value = target(of);
+  const auto value = referred(of);
   if (value.is_error()) return value;
-  auto access = writing();
-  access.reads = true;
-  note(of, value, access);
-  if (!check_writable(value, of.at)) return error();
   if (const auto refusal = pointing(of, value); !refusal.empty()) return failed(of.at, refusal);
   if (is_incomplete(*value.type)) return refused_incomplete(*value.type, of.at);
   return pointer_of(value);

@@ -50,12 +50,8 @@ std::optional<Value> Lowering::reference_of(const Expression& e) {
   if (e.parts[0]->name != "REF") return std::nullopt;
   if (e.arguments.size() != 1 || e.arguments[0].output) return failed(e.at, "REF has one variable");
   const auto& of = *e.arguments[0].value;
-  const auto value = target(of);
+  const auto value = referred(of);
   if (value.is_error()) return value;
-  auto access = writing();
-  access.reads = true;
-  note(of, value, access);
-  if (!check_writable(value, of.at)) return error();
   auto refusal = passing(of);
   if (refusal.empty() && (is_in_image(value.place) || value.place.bit >= 0 || value.place.form != 0))
     refusal = register_refusal;

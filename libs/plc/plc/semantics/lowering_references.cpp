@@ -54,6 +54,15 @@ Value Lowering::target(const Expression& e) {
   return value;
 }
 
+Value Lowering::referred(const Expression& e) {
+  auto value = target(e);
+  if (value.is_error()) return value;
+  auto access = writing();
+  access.reads = true;
+  note(e, value, access);
+  return check_writable(value, e.at) ? value : error();
+}
+
 void Lowering::note(const Expression& e, const Value& value, Reference access) {
   if (pou_ == nullptr || value.is_error() || unit_.is_library(pou_->declaration->at)) return;
   const auto& root = root_of(e);
@@ -74,8 +83,10 @@ void Lowering::note(const Expression& e, const Value& value, Reference access) {
       unit_.references.push_back(std::move(read));
     }
     access.variable = own_variable(root);
-    if (access.variable == nullptr || access.variable->section == VariableSection::external)
+    if (access.variable == nullptr)
       access.variable = unit_.find_global(root.name);
+    else if (access.variable->section == VariableSection::external)
+      access.variable = access.variable->external;
   } else if (root.kind != Expression::Kind::direct) {
     return;
   }

@@ -98,6 +98,8 @@ const Field* Type::field(std::string_view upper) const {
 }
 
 const Enumerator* Type::enumerator(std::string_view upper) const {
+  if (!space.empty() && upper.starts_with(space) && upper.substr(space.size()).starts_with('.'))
+    upper.remove_prefix(space.size() + 1);
   const auto found = std::find_if(enumerators.begin(), enumerators.end(),
                                   [&](const Enumerator& e) { return e.name == upper; });
   return found == enumerators.end() ? nullptr : &*found;

@@ -84,11 +84,13 @@ struct Type {
   const Type* element = nullptr;
   std::vector<Field> fields;  ///< of a structure
   std::vector<Enumerator> enumerators;
+  std::string space;  ///< of an enumeration: the namespace of its values, in capitals
   const Block* block = nullptr;
   Interface* interface = nullptr;
   std::vector<std::uint64_t> initial;  ///< the cells of a variable without initial value
 
   const Field* field(std::string_view upper) const;
+  /// Also by the whole name, with the namespace.
   const Enumerator* enumerator(std::string_view upper) const;
 };
 

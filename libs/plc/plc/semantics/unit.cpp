@@ -179,6 +179,7 @@ void Unit::declare_variable(Pou& pou, const Pou& declared_in, const VariableBloc
   variable.retain = block.retain;
   variable.is_constant = block.constant;
   variable.access = block.access;
+  variable.is_internal = block.is_internal;
   if (pou.declaration->kind == PouKind::function_block) variable.declared_in = &declared_in;
   in_out_spec_ = block.section == VariableSection::in_out ? declaration.type : nullptr;
   variable.type = type_of(*declaration.type, &pou);
@@ -191,7 +192,8 @@ void Unit::declare_variable(Pou& pou, const Pou& declared_in, const VariableBloc
   const auto& type = *variable.type;
   if (block.retain) refuse_retention(type, variable.text, variable.at);
   if (block.section == VariableSection::external) {
-    auto* global = find_global(declaration.name);
+    auto* global = find_global(declaration.global.empty() ? declaration.name : declaration.global);
+    variable.external = global;
     if (global == nullptr) {
       diagnostics_.error(declaration.at, "there is no global variable '" + declaration.text + "'");
       variable.type = elementary(Kind::error);
@@ -292,7 +294,7 @@ void Unit::declare_variables(Pou& pou) {
   if (pou.declaration->result) {
     auto& result = pou.variables.emplace_back();
     result.name = pou.declaration->name;
-    result.text = pou.declaration->text;
+    result.text = pou.declaration->text.substr(pou.declaration->text.rfind('.') + 1);
     result.at = pou.declaration->at;
     result.section = VariableSection::output;
     result.type = type_of(*pou.declaration->result, &pou);

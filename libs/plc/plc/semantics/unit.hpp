@@ -38,6 +38,8 @@ struct Variable {
   bool pointed = false;                ///< of in_out: it has pointers, which may be used later than the call
   const Pou* declared_in = nullptr;    ///< of an instance of a function block: the block that declares it
   Access access = Access::protected_;
+  bool is_internal = false;
+  Variable* external = nullptr;  ///< of VAR_EXTERNAL: the global variable
 };
 
 /// A program, function, function block, test or method while it is translated and afterwards.

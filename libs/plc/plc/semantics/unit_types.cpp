@@ -235,6 +235,7 @@ const Type* Unit::enumeration(const TypeSpec& spec, const std::string& name) {
   auto& type = types_.emplace_back();
   type.kind = Kind::enumeration;
   type.name = name;
+  type.space = spec.space;
   std::int64_t next = 0;
   for (const auto& enumerator : spec.enumerators) {
     if (type.enumerator(enumerator.name) != nullptr) {
@@ -250,8 +251,9 @@ const Type* Unit::enumeration(const TypeSpec& spec, const std::string& name) {
     ++next;
   }
   type.initial = {type.enumerators.empty() ? 0 : static_cast<std::uint64_t>(type.enumerators[0].value)};
+  const auto prefix = spec.space.empty() ? std::string() : spec.space + ".";
   for (const auto& enumerator : type.enumerators)
-    enumerators_[enumerator.name].push_back({&type, &enumerator});
+    enumerators_[prefix + enumerator.name].push_back({&type, &enumerator});
   return &type;
 }
 

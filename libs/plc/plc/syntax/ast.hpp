@@ -106,6 +106,7 @@ struct VariableDeclaration {
   std::string name, text;  ///< in capitals, as written
   Position at;
   std::string location;  ///< of AT, without percent sign
+  std::string global;    ///< of VAR_EXTERNAL in a namespace: the whole name of the global variable
   Position location_at;
   InputEdge edge = InputEdge::none;
   Position edge_at;
@@ -126,6 +127,7 @@ struct TypeSpec {
   Kind kind = Kind::named;
   Position at;
   std::string name, text;   ///< of named; of an enumeration the type of its values, if it says one
+  std::string space;        ///< of an enumeration: the namespace of its values, in capitals
   ExpressionPtr low, high;  ///< of a subrange
   std::vector<Dimension> dimensions;
   TypeSpecPtr element;   ///< of an array, a reference or a pointer
@@ -138,13 +140,14 @@ struct TypeSpec {
 
 enum class VariableSection { local, input, output, in_out, temporary, global, external };
 
-/// From where a method or a variable of VAR is used; INTERNAL is public_, as there are no namespaces.
+/// From where a method or a variable of VAR is used; INTERNAL is public_ within its namespace.
 enum class Access { public_, protected_, private_ };
 
 struct VariableBlock {
   VariableSection section = VariableSection::local;
   Access access = Access::protected_;
-  bool retain = false, constant = false;
+  bool retain = false, constant = false, is_internal = false;
+  std::size_t scope = 0;  ///< of VAR_GLOBAL: one of SourceTree::scopes
   Position at;
   std::vector<VariableDeclaration> variables;
   std::vector<TypeSpecPtr> types;
@@ -153,7 +156,7 @@ struct VariableBlock {
 
 enum class PouKind { program, function, function_block, test, method };
 
-/// A name behind EXTENDS or IMPLEMENTS.
+/// A name behind EXTENDS, IMPLEMENTS or USING.
 struct NamedPlace {
   std::string name, text;
   Position at;
@@ -169,7 +172,9 @@ struct PouDeclaration {
   Statements body;
   Position end;
   Access access = Access::public_;  ///< of a method
-  bool is_class = false, is_final = false, is_abstract = false, overrides = false;
+  bool is_class = false, is_final = false, is_abstract = false, overrides = false, is_internal = false;
+  std::size_t scope = 0;                ///< one of SourceTree::scopes
+  std::string space;                    ///< the namespace, in capitals
   NamedPlace extends;                   ///< of a function block; without a name: none
   std::vector<NamedPlace> implements;   ///< interfaces
   std::vector<PouDeclaration> methods;  ///< of a function block
@@ -179,6 +184,8 @@ struct PouDeclaration {
 struct InterfaceDeclaration {
   std::string name, text;
   Position at;
+  bool is_internal = false;
+  std::size_t scope = 0;  ///< one of SourceTree::scopes
   std::vector<NamedPlace> extends;
   std::vector<PouDeclaration> methods;
 };
@@ -186,6 +193,8 @@ struct InterfaceDeclaration {
 struct TypeDeclaration {
   std::string name, text;
   Position at;
+  bool is_internal = false;
+  std::size_t scope = 0;  ///< one of SourceTree::scopes
   TypeSpecPtr type;
   ExpressionPtr initial;
 };
@@ -213,12 +222,23 @@ struct ProgramConfiguration {
 struct ConfigurationDeclaration {
   std::string text;
   Position at;
+  std::size_t scope = 0;  ///< one of SourceTree::scopes
   std::vector<TaskDeclaration> tasks;
   std::vector<ProgramConfiguration> programs;
 };
 
-/// Everything that the sources declare.
+/// Where names mean the same: a source, a piece of a namespace, or a unit with a USING of its own.
+struct NamingScope {
+  std::string name, text;  ///< of the namespace with those around it, in capitals and as written
+  Position at;
+  bool is_internal = false;
+  std::size_t outer = 0;
+  std::vector<NamedPlace> usings;
+};
+
+/// Everything that the sources declare. Names are whole ones, with their namespaces, behind resolve_names().
 struct SourceTree {
+  std::vector<NamingScope> scopes = std::vector<NamingScope>(1);  ///< the first one is around all
   std::vector<TypeDeclaration> types;
   std::vector<VariableBlock> globals;
   std::vector<PouDeclaration> pous;

@@ -6,6 +6,9 @@ namespace trunnion::st {
 
 void DeclarationParser::configuration() {
   ConfigurationDeclaration configuration;
+  if (!open_.empty())
+    diagnostics_.error(now().at, "a CONFIGURATION is in no namespace: write it behind END_NAMESPACE");
+  configuration.scope = scope_;
   take();
   const auto name = expect_name("the name of the configuration");
   configuration.text = name.text;
@@ -107,7 +110,7 @@ void DeclarationParser::program_configuration(ConfigurationDeclaration& configur
     program.task_at = task.at;
   }
   expect_symbol(":", "before the name of the PROGRAM");
-  const auto type = expect_name("the name of a PROGRAM");
+  const auto type = expect_whole_name("the name of a PROGRAM");
   program.type = type.upper;
   program.type_text = type.text;
   program.type_at = type.at;

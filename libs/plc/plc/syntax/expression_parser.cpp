@@ -111,7 +111,7 @@ ExpressionPtr ExpressionParser::primary() {
       }
       if (is_called_operator()) return operator_call();
       if (is_keyword()) fail("a value or a variable");
-      if (ahead().kind == TokenKind::symbol && ahead().text == "#") return typed_literal();
+      if (at_typed_literal()) return typed_literal();
       return designator();
     case TokenKind::direct:
       return designator();
@@ -160,8 +160,18 @@ ExpressionPtr ExpressionParser::operator_call() {
   return result;
 }
 
+/// Color#red, a.b.Color#red
+bool ExpressionParser::at_typed_literal() const {
+  const auto is = [&](std::size_t i, std::string_view text) {
+    return ahead(i).kind == TokenKind::symbol && ahead(i).text == text;
+  };
+  std::size_t behind = 1;
+  while (is(behind, ".") && ahead(behind + 1).kind == TokenKind::identifier) behind += 2;
+  return is(behind, "#");
+}
+
 ExpressionPtr ExpressionParser::typed_literal() {
-  const auto type = take();
+  const auto type = expect_whole_name("a type");
   take();
   auto node = make(Expression::Kind::typed, type.at);
   node->name = type.upper;

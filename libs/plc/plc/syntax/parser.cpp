@@ -8,6 +8,8 @@
 namespace trunnion::st {
 
 void DeclarationParser::run() {
+  tree_.scopes.emplace_back();
+  scope_ = tree_.scopes.size() - 1;
   while (now().kind != TokenKind::end) {
     try {
       declaration();
@@ -15,6 +17,8 @@ void DeclarationParser::run() {
       recover();
     }
   }
+  for (const auto& one : open_)
+    diagnostics_.error(one.at, "the namespace '" + one.text + "' has no END_NAMESPACE");
 }
 
 void DeclarationParser::declaration() {
@@ -28,7 +32,11 @@ void DeclarationParser::declaration() {
   if (at_class()) return pou(PouKind::function_block, "END_CLASS", "a class");
   if (is_word("TEST")) return pou(PouKind::test, "END_TEST", "a test");
   if (at_configuration()) return configuration();
-  fail("PROGRAM, FUNCTION, FUNCTION_BLOCK, TEST, TYPE, VAR_GLOBAL or CONFIGURATION");
+  if (at_namespace()) return open_namespace();
+  if (is_word("END_NAMESPACE")) return close_namespace();
+  if (at_using()) return accept_using(tree_.scopes[scope_].usings);
+  fail(std::string("PROGRAM, FUNCTION, FUNCTION_BLOCK, TEST, TYPE, VAR_GLOBAL or ") +
+       (open_.empty() ? "CONFIGURATION" : "END_NAMESPACE"));
 }
 
 // To behind the end of a declaration, or to the next one.
@@ -43,16 +51,20 @@ void DeclarationParser::recover() {
     for (const auto* start : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL"})
       if (is_word(start)) return;
     if (at_configuration() || at_class() || at_interface()) return;
+    if (at_namespace() || is_word("END_NAMESPACE") || at_using()) return;
   }
 }
 
 void DeclarationParser::type_block() {
+  const bool is_internal = accept_internal();
   while (!is_word("END_TYPE")) {
     TypeDeclaration declaration;
     const auto name = expect_name("the name of a type or END_TYPE");
     declaration.name = name.upper;
     declaration.text = name.text;
     declaration.at = name.at;
+    declaration.is_internal = is_internal;
+    declaration.scope = scope_;
     expect_symbol(":", "behind the name of the type");
     declaration.type = type_spec();
     const bool list = declaration.type->kind == TypeSpec::Kind::array;
@@ -108,7 +120,7 @@ TypeSpecPtr DeclarationParser::type_spec() {
       expect_symbol(")", "behind the length of the string");
     }
   } else {
-    const auto name = expect_name("a type");
+    const auto name = expect_whole_name("a type");
     spec->name = name.upper;
     spec->text = name.text;
     if (at_named_values()) {
@@ -198,14 +210,17 @@ VariableBlock DeclarationParser::variable_block() {
       {"VAR_EXTERNAL", VariableSection::external}};
   VariableBlock block;
   block.at = now().at;
+  block.scope = scope_;
   block.section = sections.at(take().upper);
   for (;;) {
     if (accept_word("RETAIN"))
       block.retain = true;
     else if (accept_word("CONSTANT"))
       block.constant = true;
+    else if (block.section == VariableSection::global && accept_internal())
+      block.is_internal = true;
     else if (!accept_word("NON_RETAIN") &&
-             !(block.section == VariableSection::local && accept_access(block.access)))
+             !(block.section == VariableSection::local && accept_access(block.access, block.is_internal)))
       break;
   }
   // What a call gives is no constant: VAR_INPUT CONSTANT of CoDeSys is VAR_INPUT.
@@ -238,7 +253,7 @@ void DeclarationParser::refuse_edge(const VariableDeclaration& variable) {
 bool DeclarationParser::at_pou_end() const {
   return is_word("END_PROGRAM") || is_word("END_FUNCTION") || is_word("END_FUNCTION_BLOCK") ||
          is_word("END_METHOD") || is_word("END_INTERFACE") || is_word("END_CLASS") || is_word("END_TEST") ||
-         is_word("VAR");
+         is_word("END_NAMESPACE") || is_word("VAR");
 }
 
 /// The edge detections of the inputs of one list, and their calls.
@@ -267,7 +282,8 @@ VariableBlock DeclarationParser::edge_blocks(const VariableBlock& block, const P
     detection.at = variable.edge_at;
     auto& type = result.types.emplace_back(std::make_unique<TypeSpec>());
     type->at = variable.edge_at;
-    type->name = type->text = rising ? "R_TRIG" : "F_TRIG";
+    // Without a text it is that of the standard library, whatever the namespace has.
+    type->name = rising ? "R_TRIG" : "F_TRIG";
     detection.type = type.get();
     edges_[variable.name] = detection.text;
     auto& call = calls.emplace_back(std::make_unique<Statement>());
@@ -315,6 +331,7 @@ void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view
   take();
   const bool has_methods = kind == PouKind::function_block;
   if (has_methods) block_modifiers(pou);
+  if (kind == PouKind::function) pou.is_internal = accept_internal();
   if (kind == PouKind::test && now().kind == TokenKind::string) {
     const auto name = take();
     pou.name = "TEST " + name.text;
@@ -326,6 +343,8 @@ void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view
     pou.text = name.text;
     pou.at = name.at;
   }
+  std::vector<NamedPlace> usings;
+  accept_using(usings);
   if (is_symbol(":")) {
     if (kind != PouKind::function) fail("declarations (only a function has a result type)");
     take();
@@ -333,6 +352,8 @@ void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view
   }
   if (has_methods) extends(pou);
   accept_symbol(";");
+  accept_using(usings);
+  pou.scope = scope_with(std::move(usings));
   variable_blocks(pou);
   if (has_methods) methods(pou);
   pou.body = edge_calls(pou);

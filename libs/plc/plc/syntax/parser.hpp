@@ -47,6 +47,8 @@ class TokenReader {
   void expect_symbol(std::string_view text, std::string_view where);
   void expect_word(std::string_view upper, std::string_view where);
   Token expect_name(std::string_view what);
+  /// With the names of namespaces before it: a.b.name
+  Token expect_whole_name(std::string_view what);
   [[noreturn]] void fail(const std::string& expected);
   /// How the current word is named in a message.
   std::string found() const;
@@ -55,6 +57,7 @@ class TokenReader {
   bool is_name(const Token& token) const { return token.kind == TokenKind::identifier && !is_keyword(token); }
   /// CONFIGURATION is a name elsewhere.
   bool at_configuration() const { return is_word("CONFIGURATION") && ahead().kind == TokenKind::identifier; }
+  bool at_namespace() const { return is_word("NAMESPACE") && ahead().kind == TokenKind::identifier; }
   /// Nesting of expressions, types and statements; throws Abandoned beyond a limit.
   class Depth {
    public:
@@ -100,6 +103,7 @@ class ExpressionParser : public TokenReader {
  private:
   ExpressionPtr unary();
   ExpressionPtr primary();
+  bool at_typed_literal() const;
   ExpressionPtr typed_literal();
   bool at_scoped_name() const;
   ExpressionPtr scoped_name();
@@ -153,13 +157,19 @@ class DeclarationParser : public StatementParser {
   Statements edge_calls(PouDeclaration& pou);
   bool at_pou_end() const;
   void variable_blocks(PouDeclaration& pou);
-  bool accept_access(Access& access);
+  bool accept_access(Access& access, bool& is_internal);
+  bool accept_internal();
   bool accept_modifier(PouDeclaration& unit);
   void block_modifiers(PouDeclaration& block);
   void extends(PouDeclaration& block);
   std::vector<NamedPlace> interface_names();
   void interface();
   NamedPlace named_place(std::string_view what);
+  void open_namespace();
+  void close_namespace();
+  bool at_using() const { return is_word("USING") && is_name(ahead()); }
+  void accept_using(std::vector<NamedPlace>& usings);
+  std::size_t scope_with(std::vector<NamedPlace> usings);
   void check_class(const PouDeclaration& block);
   void methods(PouDeclaration& block);
   PouDeclaration method();
@@ -169,7 +179,16 @@ class DeclarationParser : public StatementParser {
   void task(ConfigurationDeclaration& configuration);
   void program_configuration(ConfigurationDeclaration& configuration);
 
+  struct OpenNamespace {
+    std::size_t outer;   ///< scope around it
+    std::size_t levels;  ///< of namespaces, with its own
+    std::string text;
+    Position at;
+  };
+
   SourceTree& tree_;
+  std::size_t scope_ = 0;
+  std::vector<OpenNamespace> open_;
 };
 
 }  // namespace trunnion::st

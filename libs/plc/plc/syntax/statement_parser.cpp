@@ -30,10 +30,11 @@ Statements StatementParser::statements(std::initializer_list<std::string_view> e
 // A unit begins or ends where statements are expected: the end of a statement or of the unit before is
 // missing.
 bool StatementParser::at_declaration() const {
-  for (const auto* word : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL",
-                           "END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_CLASS", "END_TEST"})
+  for (const auto* word :
+       {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL", "END_PROGRAM", "END_FUNCTION",
+        "END_FUNCTION_BLOCK", "END_CLASS", "END_TEST", "END_NAMESPACE"})
     if (is_word(word)) return true;
-  return at_configuration() || at_method() || at_class() || at_interface();
+  return at_configuration() || at_method() || at_class() || at_interface() || at_namespace();
 }
 
 // To behind the next ';', or to the end of the enclosing statement.
@@ -140,8 +141,8 @@ void StatementParser::if_statement(Statement& s) {
   expect_word("END_IF", "at the end of IF");
 }
 
-// "3:", "3, 4:", "3..5:", "RED:", "Color#red:", "-1:", "2 * N:", "N MOD 2:"; an assignment has ":=" or a
-// designator first, another statement two words that follow each other, as CASE n OF 0:
+// "3:", "3, 4:", "3..5:", "RED:", "a.RED:", "Color#red:", "-1:", "2 * N:", "N MOD 2:"; an assignment has ":="
+// or a designator first, another statement two words that follow each other, as CASE n OF 0:
 bool StatementParser::at_case_label() const {
   bool behind_value = false;
   for (std::size_t i = 0; i < 400; ++i) {
@@ -150,7 +151,7 @@ bool StatementParser::at_case_label() const {
     if (token.kind == TokenKind::symbol) {
       if (token.text == ":") return true;
       constexpr std::array symbols =
-          std::to_array<std::string_view>({",", "..", "-", "#", "+", "*", "/", "**"});
+          std::to_array<std::string_view>({",", "..", "-", "#", "+", "*", "/", "**", "."});
       if (std::find(symbols.begin(), symbols.end(), token.text) == symbols.end()) return false;
       behind_value = false;
     } else if (behind_value && token.kind == TokenKind::identifier && token.upper == "MOD") {

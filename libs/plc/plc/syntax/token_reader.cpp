@@ -79,4 +79,15 @@ Token TokenReader::expect_name(std::string_view what) {
   return take();
 }
 
+Token TokenReader::expect_whole_name(std::string_view what) {
+  auto name = expect_name(what);
+  while (is_symbol(".")) {
+    take();
+    const auto part = expect_name("a name behind '.'");
+    name.text.append(".").append(part.text);
+    name.upper.append(".").append(part.upper);
+  }
+  return name;
+}
+
 }  // namespace trunnion::st

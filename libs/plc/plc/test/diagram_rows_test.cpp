@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the standard's tables of diagrams and charts have and no other test covers (libs/plc/plc/standard).
+// What the standard's tables of diagrams and charts have and no other test covers (libs/plc/plc/conformance).
 #include <gmock/gmock.h>
 
 #include <tuple>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of the tables of IEC 61131-3:2013: libs/plc/plc/standard says what each is and has the program
+// The rows of the tables of IEC 61131-3:2013: libs/plc/plc/conformance says what each is and has the program
 // that tests it.
 #include <gmock/gmock.h>
 

@@ -132,9 +132,12 @@ std::vector<SourceUse> Uses::of(const std::string& path) const {
     }
     return places.sorted();
   }
-  const auto dot = upper.find('.');
-  const auto next = dot == std::string::npos ? dot : upper.find_first_of(".[", dot + 1);
-  places.add_variable(upper.substr(0, next), "");
+  // A unit may have namespaces before its name.
+  auto behind = upper.find('.');
+  do {
+    if (behind != std::string::npos) behind = upper.find_first_of(".[", behind + 1);
+    places.add_variable(upper.substr(0, behind), "");
+  } while (!places.found() && behind != std::string::npos);
   if (!places.found()) {
     const auto named = interface_registers().find(upper);
     if (named == interface_registers().end())

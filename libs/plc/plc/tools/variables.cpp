@@ -105,10 +105,9 @@ SymbolInPath symbol_in(const std::vector<Symbol>& symbols, const std::string& up
       best = {&symbol, symbol.path.size()};
   if (best.symbol != nullptr) return best;
   for (const auto& symbol : symbols) {
-    const auto dot = symbol.path.find('.');
-    if (dot == std::string::npos || !begins_path(upper, upper_case(symbol.path.substr(dot + 1)))) continue;
+    if (symbol.name_at == 0 || !begins_path(upper, upper_case(symbol.path.substr(symbol.name_at)))) continue;
     if (best.symbol != nullptr) refuse(upper, "several programs have it; write program.variable");
-    best = {&symbol, symbol.path.size() - dot - 1};
+    best = {&symbol, symbol.path.size() - symbol.name_at};
   }
   return best;
 }

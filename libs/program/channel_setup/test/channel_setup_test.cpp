@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "parameter_store/tool_tables.hpp"
 #include "reading.hpp"
@@ -77,6 +79,34 @@ TEST(ChannelSetup, ASpeedAboveTheHighestOfTheSpindleOfTheChannelIsRefused) {
   EXPECT_EQ(alarm("S6001").alarm, 0u);
   tables.parameters.values[40913].value = second;
   EXPECT_EQ(alarm("S6001").alarm, 1126u);
+}
+
+TEST(ChannelSetup, ASpeedAboveThatOfTheHighestGearIsRefused) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const std::uint32_t of_spindle = 1000u * ChannelSetup(tables).tapping_spindle().axis.value();
+  const auto alarm = [&](const std::string& text) {
+    ChannelSetup setup(tables);
+    return test::read(setup, text);
+  };
+  tables.parameters.values[100948 + of_spindle].value = 12000;
+  tables.parameters.values[100985 + of_spindle].value = 900;   // gear 1
+  tables.parameters.values[100987 + of_spindle].value = 3500;  // gear 3; there is no gear 2
+  EXPECT_EQ(alarm("S3500").alarm, 0u);
+  EXPECT_EQ(alarm("S3501").text,
+            "speed above the highest of the spindle: S3501, at most 3500 1/min (10a985)");
+  tables.parameters.values[100948 + of_spindle].value = 3000;
+  EXPECT_EQ(alarm("S3001").text,
+            "speed above the highest of the spindle: S3001, at most 3000 1/min (10a948)");
+}
+
+// 010920 .. 010923.
+TEST(ChannelSetup, TheParametersNameTheCodesWithAnAngle) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  EXPECT_EQ(ChannelSetup(tables).angle_m_codes(), (language::AngleMCodes{19, -1, -1, -1}));
+  tables.parameters.values[10921].value = 80;
+  tables.parameters.values[10923].value = 81;
+  EXPECT_EQ(ChannelSetup(tables).angle_m_codes(), (language::AngleMCodes{19, 80, -1, 81}));
+  EXPECT_EQ(test::setup_of("lathe").angle_m_codes(), (language::AngleMCodes{19, 80, 81, -1}));
 }
 
 // HNC-8: 040007 (U) = -2 makes U the spindle that G84 J4 taps with. Further letters are the spindles behind
@@ -220,6 +250,50 @@ TEST(ChannelSetup, AMoveOutOfTravelIsToldWithLineAxisAndLimits) {
   EXPECT_EQ(setup.travel_error({}, move), "7: X would go to 500.0000, its travel is -400.0000 .. 400.0000");
   move.target = {400};
   EXPECT_EQ(setup.travel_error({}, move), "");
+}
+
+TEST(ChannelSetup, ProgramsAreInTheDialectOfTheChannel) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const auto alarm = [&] {
+    ChannelSetup setup(tables);
+    return test::read(setup, "G4 F1\nM2").alarm;
+  };
+  EXPECT_EQ(alarm(), 1108u) << "G4 of ISO needs P, X or U";
+  tables.parameters.values[40959] = {1, ""};
+  EXPECT_EQ(alarm(), 0u);
+}
+
+TEST(ChannelSetup, ExternalParametersOfNumAreThoseOfTheSpindles) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const auto first = 100000 + 1000u * ChannelSetup(tables).tapping_spindle().axis.value();
+  tables.parameters.values[first + 974] = {2, ""};
+  tables.parameters.values[first + 975] = {300, ""};
+  tables.parameters.values[first + 972] = {1500, ""};
+  const ChannelSetup setup(tables);
+  // 2 degrees of 360 are 2 / 360 * 65536 = 364.089 parts of a revolution.
+  EXPECT_NEAR(setup.external_parameter(90310).value(), 364.0889, 1e-4);
+  EXPECT_EQ(setup.external_parameter(90320), 300);
+  EXPECT_EQ(setup.external_parameter(90330), setup.tapping_spindle().acceleration);
+  EXPECT_EQ(setup.external_parameter(90370), 1500);
+  EXPECT_EQ(setup.external_parameter(90323), std::nullopt) << "the machine has no fourth spindle";
+  EXPECT_EQ(setup.external_parameter(91124), std::nullopt) << "its state is not known when the text is read";
+  EXPECT_EQ(setup.external_parameter(98024), 500) << "10a976, the default";
+  EXPECT_EQ(setup.external_parameter(90360), 0);
+
+  using Changes = std::vector<std::pair<std::uint32_t, double>>;
+  const auto changes = [&](std::uint32_t number, double value) {
+    const auto all = setup.external_changes(number, value);
+    Changes list;
+    for (std::size_t i = 0; i < all.count; ++i) list.emplace_back(all.list[i].number, all.list[i].value);
+    return list;
+  };
+  EXPECT_EQ(changes(90320, 400), (Changes{{first + 975, 400}}));
+  // 65536 parts are a revolution.
+  EXPECT_NEAR(changes(90310, 32768).at(0).second, 180, 1e-9);
+  EXPECT_EQ(changes(90360, 1000), (Changes{{first + 977, 1}, {first + 971, 1}}));
+  EXPECT_EQ(changes(90360, 1), (Changes{{first + 977, 0}, {first + 971, 1}}));
+  EXPECT_EQ(changes(90360, 0), (Changes{{first + 977, 0}, {first + 971, 0}}));
+  EXPECT_TRUE(changes(90323, 1).empty());
 }
 
 }  // namespace

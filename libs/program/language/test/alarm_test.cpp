@@ -72,6 +72,11 @@ std::vector<Wrong> wrong_programs() {
       {not_an_integer, "T1.5", 1, 1, ": T1.5"},
       {not_an_integer, "G43 H1.5", 1, 5, ": H1.5"},
       {not_an_integer, "M98 P1.5", 1, 5, ": P1.5"},
+      {not_an_integer, "G95 S100 G84 Z-4 R1 F1 K1.25", 1, 24,
+       ": K1.25, K and L are repetitions, the lead is F"},
+      {not_an_integer, "G95 S100 G74 Z-4 R1 F1 L1.5", 1, 24,
+       ": L1.5, K and L are repetitions, the lead is F"},
+      {not_an_integer, "G81 Z-4 R1 F1 K1.25", 1, 15, ": K1.25"},
       {not_an_integer, "O1.5", 1, 1, ": O1.5"},
       {value_range, "T65536", 1, 1, ": T65536"},
       {value_range, "S-1", 1, 1, ": S-1"},
@@ -200,6 +205,7 @@ std::vector<Wrong> wrong_programs() {
       {variable_unknown, "#1=#4099", 1, 4, ": #4099"},
       {variable_unknown, "#1=AR[#60]", 1, 4, ": AR"},
       {variable_read_only, "#5001=1", 1, 1, ": #5001"},
+      {spindle_without_mark, "#4822=1", 1, 1, ": #4822, spindle 1"},
       {variable_value, "#3006=-1", 1, 1, ": #3006"},
       {variable_value, "#2601=-1", 1, 1, ": #2601"},
       {variable_unknown, "#5231=1", 1, 1, ": #5231"},
@@ -217,23 +223,35 @@ TestMachine machine_without_w() {
   TestMachine machine;
   machine.axis_mask = 0b011111111;
   machine.highest_speed = 50000;
+  machine.axis_feed = 4000;
   machine.lengths = {{1, 50.0}};
   machine.cycle_m_codes[3] = 130;
   machine.tools[1] = {50, 0, 5, 0};
   return machine;
 }
 
+void expect_alarm(TestMachine& machine, const Wrong& wrong) {
+  const Interpretation result = run(machine, wrong.program);
+  SCOPED_TRACE(wrong.program);
+  ASSERT_EQ(result.last, Step::alarm);
+  EXPECT_EQ(result.alarm.number, wrong.number) << result.alarm.text.data();
+  EXPECT_EQ(result.alarm.line, wrong.line);
+  EXPECT_EQ(result.alarm.column, wrong.column);
+  EXPECT_EQ(std::string(result.alarm.text.data()), std::string(alarm_text(wrong.number)) + wrong.word);
+}
+
 TEST(Alarm, PointsAtTheWordThatIsWrong) {
   for (const Wrong& wrong : wrong_programs()) {
     TestMachine machine = machine_without_w();
-    const Interpretation result = run(machine, wrong.program);
-    SCOPED_TRACE(wrong.program);
-    ASSERT_EQ(result.last, Step::alarm);
-    EXPECT_EQ(result.alarm.number, wrong.number) << result.alarm.text.data();
-    EXPECT_EQ(result.alarm.line, wrong.line);
-    EXPECT_EQ(result.alarm.column, wrong.column);
-    EXPECT_EQ(std::string(result.alarm.text.data()), std::string(alarm_text(wrong.number)) + wrong.word);
+    expect_alarm(machine, wrong);
   }
+}
+
+TEST(Alarm, ConstantSurfaceSpeedNeedsALimitOfTheSpeed) {
+  TestMachine machine = machine_without_w();
+  machine.highest_speed = 0;
+  expect_alarm(machine, {AlarmNumber::surface_speed_limit, "G96 S100", 1, 1, ": G96"});
+  expect_alarm(machine, {AlarmNumber::surface_speed_limit, "G92 S3000\nG96 S100\nG92 S0", 3, 5, ": S0"});
 }
 
 struct FailingSource : TextSource {
@@ -254,12 +272,17 @@ TEST(Alarm, TextThatCannotBeReadIsOne) {
 }
 
 TEST(Alarm, EveryNumberOfTheTableHasATest) {
-  // A channel gives the first two, the interpreter never does.
-  std::set<AlarmNumber> tested{AlarmNumber::not_resumable, AlarmNumber::tapping_spindle_missing,
-                               AlarmNumber::text_unreadable};
+  // A channel gives the first six, the interpreter never does. The last three have tests of their own.
+  std::set<AlarmNumber> tested{AlarmNumber::not_resumable,      AlarmNumber::tapping_spindle_missing,
+                               AlarmNumber::thread_too_short,   AlarmNumber::axes_without_reference,
+                               AlarmNumber::homing_axis_locked, AlarmNumber::tap_removal_thread,
+                               AlarmNumber::text_unreadable,    AlarmNumber::homed_unknown,
+                               AlarmNumber::surface_speed_limit};
   for (const Wrong& wrong : wrong_programs()) tested.insert(wrong.number);
   for (const AlarmText& entry : alarm_texts) {
-    EXPECT_TRUE(tested.contains(entry.number)) << entry.text;
+    // num_dialect_test.cpp has those of the NUM dialect.
+    const auto number = static_cast<int>(entry.number);
+    EXPECT_TRUE(tested.contains(entry.number) || (number >= 1150 && number <= 1199)) << entry.text;
     // The buffer holds the longest text with ": " and a word of 32 bytes.
     EXPECT_LE(entry.text.size() + 2 + 32 + 1, Alarm{}.text.size());
   }

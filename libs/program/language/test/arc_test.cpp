@@ -71,6 +71,25 @@ TEST(ArcFromRadius, CentreIsOnTheSideTheDirectionAndTheSignSay) {
   }
 }
 
+// From (10, 0) about the zero over 300 degrees: Y turns back at 90 and 270 degrees, X at 0 and 180.
+TEST(TurningShares, AreWhereACircleTurnsBackAlongAnAxis) {
+  Arc arc;
+  arc.sweep = 300;
+  for (const bool clockwise : {false, true}) {
+    arc.clockwise = clockwise;
+    EXPECT_NEAR(turning_shares({10}, arc, Y)[0], 0.3, 1e-12);
+    EXPECT_NEAR(turning_shares({10}, arc, Y)[1], 0.9, 1e-12);
+  }
+  EXPECT_NEAR(turning_shares({10}, arc, X)[1], 0.6, 1e-12);
+  EXPECT_EQ(turning_shares({10}, arc, Z)[0], -1) << "the circle is across it";
+  arc.sweep = 60;
+  EXPECT_EQ(turning_shares({10}, arc, Y)[0], -1) << "it ends before";
+  // From (6, 8) anticlockwise it is 90 - atan(8 / 6) = 36.87 degrees to the largest Y, a tenth of 368.7.
+  arc.sweep = 10 * (90 - std::atan2(8, 6) * degrees_per_radian);
+  arc.clockwise = false;
+  EXPECT_NEAR(turning_shares({6, 8}, arc, Y)[0], 0.1, 1e-12);
+}
+
 TEST(PlaneAxes, TheThirdIsTheRightHandedNormal) {
   EXPECT_EQ(plane_axes(Plane::xy).normal, Z);
   EXPECT_EQ(plane_axes(Plane::zx).first, Z);

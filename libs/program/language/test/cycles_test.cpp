@@ -42,6 +42,31 @@ TEST(Cycles, JNamesALetterThatIsASpindle) {
   }
 }
 
+// 5 mm times 2 and 1 mm times 2; the lead of the tap is what it is.
+TEST(Cycles, AScaleActsOnTheDepthOfATapAndNotOnItsLead) {
+  TestMachine machine = machine_for_cycles();
+  std::vector<std::string> taps;
+  for (const std::string& line :
+       stream(run(machine, "G51 X0 Y0 Z0 P2\nS100 G95 F1.25 G99 G84 Z-5 R1\nG80\nM30\n")))
+    if (line.rfind("tap", 0) == 0) taps.push_back(line);
+  EXPECT_EQ(taps, (std::vector<std::string>{"tap Z-10 lead1.25", "tap Z2 lead1.25"}));
+}
+
+// A right-hand thread lets the tap out when the spindle turns counter-clockwise: the lead along the way is
+// negative. Twice the distance with a scale of 2, the same lead.
+TEST(Cycles, ATapIsRemovedAgainstTheHandOfItsThread) {
+  TestMachine machine = machine_for_cycles();
+  EXPECT_EQ(stream(run(machine, "G0 Z-8\nS200 G84.9 Z12 K1.25\nM30\n")),
+            (std::vector<std::string>{"rapid Z-8", "S200", "tap Z4 lead-1.25", "end 30"}));
+  EXPECT_EQ(stream(run(machine, "G0 Z-8\nS200 G84.9 Z12 K-1.25\nM30\n")),
+            (std::vector<std::string>{"rapid Z-8", "S200", "tap Z4 lead1.25", "end 30"}));
+  EXPECT_EQ(stream(run(machine, "G51 X0 Y0 Z0 P2\nG20\nS200 G84.9 Z1 K.05\nM30\n")),
+            (std::vector<std::string>{"S200", "tap Z50.8 lead-1.27", "end 30"}));
+  // Along X the tool may come from either side.
+  EXPECT_EQ(stream(run(machine, "S200 G84.9 X-12 K1.25\nM30\n")),
+            (std::vector<std::string>{"S200", "tap X-12 lead-1.25", "end 30"}));
+}
+
 // Where the holes of a program are: the ends of its feed moves.
 std::vector<std::array<double, 2>> holes(TestMachine& machine, const std::string& text) {
   const Interpretation result = run(machine, text);

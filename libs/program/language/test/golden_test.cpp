@@ -101,6 +101,7 @@ const std::map<std::string, std::function<TestMachine()>>& machines() {
       {"drilling", with_cycles},
       {"patterns", with_cycles},
       {"tapping_and_boring", with_cycles},
+      {"threads", plain},
       {"cycle_words", with_cycles},
       {"compensation", with_cutters},
       {"curves", plain},

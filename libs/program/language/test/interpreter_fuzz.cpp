@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes, in chunks of any size: no crash, finite commands, and the same stream for every chunk size.
+// Any bytes, in chunks of any size, read in both dialects: no crash, finite commands, and the same stream for
+// every chunk size.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -43,10 +44,11 @@ struct Stepper {
   /// The next command, end or alarm; working when the program goes on without one.
   Step next(Command& command) {
     Step step = Step::pending;
-    while (step == Step::pending || step == Step::position || step == Step::answer) {
+    while (step == Step::pending || step == Step::position || step == Step::answer || step == Step::value) {
       step = interpreter.next(command);
       if (step == Step::position) interpreter.set_position(skip);
       if (step == Step::answer) interpreter.answer(0);
+      if (step == Step::value) interpreter.give_value(static_cast<double>(values++ % 3));
     }
     if (step == Step::command && command.kind == CommandKind::skip) skip = command.target;
     return step;
@@ -54,17 +56,13 @@ struct Stepper {
   ChunkedSource source;
   Interpreter interpreter;
   AxisValues skip{};
+  unsigned values = 0;
 };
 
-}  // namespace
-}  // namespace trunnion::language::test
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace trunnion::language;
-  using namespace trunnion::language::test;
-  if (size == 0) return 0;
+void interpret(const std::uint8_t* data, std::size_t size, ProgramDialect dialect) {
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   TestMachine machine;
+  machine.dialect = dialect;
   machine.lengths = {{1, 100.0}, {2, 55.5}};
   machine.tools = {{3, {10, 0, 4, 0.1}}, {1, {100, 0, 5, 0}}};
   machine.further_references[2] = {1, 2, 3};
@@ -73,6 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   machine.offsets[1] = {10, 20, 30, 0, 0, 45, 0, 0, 0};
   machine.axis_mask = 0b000111111;
   machine.programs["O0009"] = std::make_unique<StringSource>("G91 X1\n#100=#100+1\nM99\n");
+  machine.programs["O0009.1"] = std::make_unique<StringSource>("G91 G1 F100 XL0\nL100=L100+1 G77 H8\n");
   machine.programs["USERDEF.CYC"] = std::make_unique<StringSource>(
       "%1007\nWHILE #1 LT #0\n#1=#1+1\nX#1\nENDW\nM99\n%1010\nIF AR[#7] EQ 0\nM99 P5\nENDIF\nG1007 "
       "A[#7]\nM99\n");
@@ -110,5 +109,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const Value& value : whole.interpreter.variables().common) {
     require(std::isfinite(value.number) && (value.given || value.number == 0));
   }
+}
+
+}  // namespace
+}  // namespace trunnion::language::test
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trunnion::language;
+  if (size == 0) return 0;
+  test::interpret(data, size, ProgramDialect::iso);
+  test::interpret(data, size, ProgramDialect::num);
   return 0;
 }

@@ -97,6 +97,7 @@ TEST(Interpreter, ObeysTheExampleOfEveryGCode) {
     TestMachine machine = three_offsets();
     machine.further_references[2] = {};
     machine.tools[1] = {50, 0, 4, 0};
+    machine.highest_speed = 24000;  // for G96
     machine.planes[1] = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}};
     const std::string number = std::to_string(code.tenths / 10) +
                                (code.tenths % 10 != 0 ? "." + std::to_string(code.tenths % 10) : "");

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Positioning codes, modal values that are passed on, spindle modes, helices and skip moves.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <optional>
+#include <utility>
 
 #include "test_machine.hpp"
 
@@ -36,6 +40,50 @@ TEST(Positioning, SpindleDirectionIsModal) {
   EXPECT_EQ(result.commands[5].modal.spindle_direction, SpindleDirection::stopped);
 }
 
+TEST(Orientation, ROrPOfM19IsItsAngleWithinATurn) {
+  TestMachine machine;
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(
+      stream(run(machine, "M19\nM19 R90.\nM19 P270\nN4 M19 R-90 S100\nM19 R360\nM19 R-360 M8\nM19 R0\n")),
+      (Lines{"M19", "M19 at 90", "M19 at 270", "S100", "M19 at 270", "M19 at 0", "M19 at 0", "M8", "M19 at 0",
+             "end 0"}));
+  EXPECT_EQ(stream(run(machine, "G20 M19\nM19 R12.5\n")), (Lines{"M19", "M19 at 12.5", "end 0"}))
+      << "an angle has no inches";
+  EXPECT_EQ(stream(run(machine, "G2 X10 Y0 R5 F100\nM19 R30\n"))[1], "M19 at 30") << "it is no radius";
+  EXPECT_EQ(stream(run(machine, "M19 R90 M0\nM19 P45 M30\n")),
+            (Lines{"M19 at 90", "M0", "M19 at 45", "end 30"}));
+  EXPECT_EQ(stream(run(machine, "M19 R360.5\n")), (Lines{"alarm 1106 1:5"}));
+}
+
+// R and P keep the meaning that they have in blocks with other codes or with axis words.
+TEST(Orientation, ROrPOfAnotherCodeIsNoAngle) {
+  TestMachine machine;
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(stream(run(machine, "G4 P500 M19\n")), (Lines{"M19", "dwell 0.5", "end 0"}));
+  EXPECT_EQ(stream(run(machine, "M3 R90\n")), (Lines{"alarm 1107 1:4"}));
+  EXPECT_EQ(stream(run(machine, "M19 P90 R80\n")), (Lines{"alarm 1107 1:5"})) << "one angle";
+  const auto hole = stream(run(machine, "G81 Z-10 R2 F100\nM19 R3\n"));
+  EXPECT_EQ(hole.at(hole.size() - 5), "M19") << "it drills a hole from another level";
+}
+
+TEST(Orientation, OtherCodesTakeAnAngleWhereTheMachineSaysSo) {
+  TestMachine machine;
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(stream(run(machine, "M80 R90\n")), (Lines{"alarm 1107 1:5"}));
+  machine.angle_codes = {19, 80, 81, -1};
+  // -30 deg are 330; a code without an angle, and one that takes none, have none.
+  EXPECT_EQ(stream(run(machine, "M19 R10\nM80 R90\nM81 P-30\nM80\nM82\n")),
+            (Lines{"M19 at 10", "M80 at 90", "M81 at 330", "M80", "M82", "end 0"}));
+  EXPECT_EQ(stream(run(machine, "M82 R90\n")), (Lines{"alarm 1107 1:5"}));
+  const auto refused = run(machine, "M81 R400\n");
+  EXPECT_EQ(refused.alarm.number, AlarmNumber::value_range);
+  EXPECT_NE(std::string(refused.alarm.text.data()).find("the angle of M81 is -360 to 360 deg"),
+            std::string::npos)
+      << refused.alarm.text.data();
+  machine.angle_codes = {-1, -1, -1, -1};
+  EXPECT_EQ(stream(run(machine, "M19 R90\n")), (Lines{"alarm 1107 1:5"}));
+}
+
 TEST(Skip, NothingIsReadBeforeThePositionIsKnown) {
   TestMachine machine = machine_with_references();
   StringSource text("G55 G91 G31 X20 F100 M8\nX1 G0\nG90 X1\n");
@@ -55,6 +103,75 @@ TEST(Skip, NothingIsReadBeforeThePositionIsKnown) {
   EXPECT_EQ(command.target[X], 101);
   EXPECT_EQ(interpreter.next(command), Step::command);
   EXPECT_EQ(command.kind, CommandKind::end);
+}
+
+// X is bit 0, Z bit 2 and C bit 5; F is the speed of the search and no feed.
+TEST(Homing, NamesItsAxesAndTheirReferencePositions) {
+  TestMachine machine = machine_with_references();
+  EXPECT_THAT(stream(run(machine, "F300\nG28.2 X0 Z0\nG1 X1\n", {1, 2, 3})),
+              testing::ElementsAre("home5 X500 Y2 Z300", "line X1 Y2 Z300 F300", "end 0"));
+  EXPECT_THAT(stream(run(machine, "F2000 G159 C X Z\n", {0, 2})),
+              testing::ElementsAre("home37 X500 Y2 Z300 F2000", "end 0"));
+  EXPECT_THAT(stream(run(machine, "G28.2 Z (down) F600 M8 ; comment\n")),
+              testing::ElementsAre("M8", "home4 Z300 F600", "end 0"));
+}
+
+TEST(Homing, NothingIsReadBeforeThePositionIsKnownAndTheSkipPositionStays) {
+  TestMachine machine = machine_with_references();
+  StringSource text("G55 G28.2 X0 M9\n#500=#5061\nG91 G1 X1 F100\n");
+  Interpreter interpreter(machine);
+  interpreter.start(text, {7}, {});
+  Command command;
+  ASSERT_EQ(interpreter.next(command), Step::command);
+  EXPECT_EQ(command.kind, CommandKind::home);
+  ASSERT_EQ(interpreter.next(command), Step::command);
+  EXPECT_EQ(command.kind, CommandKind::auxiliary);
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(interpreter.next(command), Step::position);
+  EXPECT_TRUE(interpreter.homing());
+  interpreter.set_position({499.75});
+  EXPECT_FALSE(interpreter.homing());
+  ASSERT_EQ(interpreter.next(command), Step::command);
+  EXPECT_EQ(command.target[X], 500.75);
+  EXPECT_EQ(interpreter.variables().kept[0].number, 0);
+}
+
+TEST(Homing, IsRefusedWhereItsAxesAreNotThoseOfTheMachine) {
+  TestMachine machine = machine_with_references();
+  machine.lengths[1] = 50;
+  machine.axis_mask = 0b101111;  // X Y Z A C
+  const auto alarm = [&](const char* text) { return run(machine, text).alarm.number; };
+  EXPECT_EQ(alarm("G28.2\n"), AlarmNumber::missing_word);
+  EXPECT_EQ(alarm("G28.2 B0\n"), AlarmNumber::axis_absent);
+  EXPECT_EQ(alarm("G28.2 X0 F0\n"), AlarmNumber::feed_not_positive);
+  EXPECT_EQ(alarm("G43.4 H1\nG28.2 X0\n"), AlarmNumber::machine_coordinates_rtcp);
+  EXPECT_EQ(alarm("G0 X\n"), AlarmNumber::number_missing) << "a letter alone names an axis only here";
+  EXPECT_EQ(alarm("G28.2 X P\n"), AlarmNumber::number_missing);
+  EXPECT_EQ(alarm("G28.2 X0\n"), AlarmNumber::none);
+}
+
+// Bits 0 and 2: X and Z had their reference when the program began.
+TEST(Homing, AVariableSaysWhichAxesHaveTheirReference) {
+  TestMachine machine = machine_with_references();
+  const auto read = [&](std::optional<std::uint16_t> homed, const char* program) {
+    StringSource text(program);
+    Interpreter interpreter(machine);
+    interpreter.set_homed(homed);
+    interpreter.start(text, {}, {});
+    Command command;
+    auto step = Step::command;
+    while (step == Step::command || step == Step::position) {
+      step = interpreter.next(command);
+      if (step == Step::position) interpreter.set_position({});
+    }
+    if (step == Step::alarm) return std::pair(-1.0, interpreter.alarm().number);
+    return std::pair(interpreter.variables().kept[0].number, AlarmNumber::none);
+  };
+  const char* const weights = "#500=#1321+10*#1322+100*#1323\n";
+  EXPECT_EQ(read(0b101, weights), std::pair(101.0, AlarmNumber::none));
+  EXPECT_EQ(read(0b101, "G28.2 Y0\n#500=#1321+10*#1322+100*#1323\n"), std::pair(111.0, AlarmNumber::none));
+  EXPECT_EQ(read(std::nullopt, "G28.2 Y0\n#500=#1322\n"), std::pair(1.0, AlarmNumber::none));
+  EXPECT_EQ(read(std::nullopt, weights), std::pair(-1.0, AlarmNumber::homed_unknown));
+  EXPECT_EQ(read(0, "#1321=1\n"), std::pair(-1.0, AlarmNumber::variable_read_only));
 }
 
 TEST(Skip, WithoutAWayThereIsNothingToWaitFor) {

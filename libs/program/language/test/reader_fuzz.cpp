@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any line: no crash, words within their range, and a look at a line agrees with reading it.
+// Any line, read in both dialects: no crash, words within their range, and a look at a line agrees with
+// reading it.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -24,8 +25,8 @@ struct NoSystem : SystemVariables {
   AlarmNumber write(const VariableRange&, std::uint32_t, Value) override { return AlarmNumber::none; }
 };
 
-void check(std::string_view line, SkipLevels skip, Variables& variables, Block& block) {
-  const IsoDialect dialect;
+void check(const Dialect& dialect, std::string_view line, SkipLevels skip, Variables& variables,
+           Block& block) {
   const Outline outline = dialect.outline(line, skip);
   if (const Fault fault = dialect.read_block(line, skip, variables, block)) {
     require(fault.offset <= line.size());
@@ -68,7 +69,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string_view text(reinterpret_cast<const char*>(data), size);
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    if (end <= max_line_length) check(text.substr(0, end), 0b10, variables, block);
+    if (end <= max_line_length) {
+      for (const auto name : {ProgramDialect::iso, ProgramDialect::num})
+        check(Interpreter::dialect_of(name), text.substr(0, end), 0b10, variables, block);
+    }
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return 0;

@@ -35,6 +35,7 @@ struct TestMachine : Environment {
   std::optional<std::uint16_t> spindles;  // nothing: every letter that is no axis
   double deviation = 0.1;
   double highest_speed = 0;
+  double axis_feed = 0;  // mm/min
   double off_y = 0.1028;
   std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
   std::map<std::string, std::unique_ptr<TextSource>, std::less<>> programs;
@@ -42,6 +43,9 @@ struct TestMachine : Environment {
   std::array<canonical::RotaryWay, axis_count> ways{};
   std::optional<MFunctions> functions;  // nothing: every M code may stand
   DwellPoint point = DwellPoint::refused;
+  ProgramDialect dialect = ProgramDialect::iso;
+  std::map<std::uint32_t, double> external;  // parameters of the NUM dialect
+  AngleMCodes angle_codes{19, -1, -1, -1};
 
   AxisValues work_offset(std::uint8_t index) const override {
     if (index < offsets.size()) return offsets.at(index);
@@ -65,6 +69,7 @@ struct TestMachine : Environment {
     return spindles.value_or(static_cast<std::uint16_t>(~axis_mask));
   }
   double highest_spindle_speed() const override { return highest_speed; }
+  double highest_feed(std::size_t) const override { return axis_feed; }
   AxisValues approach() const override { return last_way; }
   bool diameter_programming() const override { return diameter; }
   double scaling_unit() const override { return factor_unit; }
@@ -73,6 +78,18 @@ struct TestMachine : Environment {
   CycleSettings cycle_settings() const override { return cycles; }
   const MFunctions* m_functions() const override { return functions ? &*functions : nullptr; }
   DwellPoint dwell_point() const override { return point; }
+  ProgramDialect program_dialect() const override { return dialect; }
+  std::optional<double> external_parameter(std::uint32_t number) const override {
+    const auto found = external.find(number);
+    return found == external.end() ? std::nullopt : std::optional(found->second);
+  }
+  /// E90330 is parameter 100330, and so on.
+  ParameterChanges external_changes(std::uint32_t number, double value) const override {
+    ParameterChanges changes;
+    if (external.count(number) != 0) changes.list[changes.count++] = {100000 + number % 1000, value};
+    return changes;
+  }
+  AngleMCodes angle_m_codes() const override { return angle_codes; }
   /// The table turns a direction d of the part to R1 R2 d, which must be +Z: A -(tilt), C so that d points to
   /// -Y or +Y of the machine; of the two solutions the one with the smaller way of C, or C as chosen.
   std::optional<AxisValues> orient(const Vector3& d, const AxisValues& current,
@@ -189,6 +206,7 @@ inline Interpretation run(Environment& machine, TextSource& text, const AxisValu
     if (result.last == Step::command) result.commands.push_back(command);
     if (result.last == Step::position) interpreter.set_position(result.commands.back().target);
     if (result.last == Step::answer) interpreter.answer(0);
+    if (result.last == Step::value) interpreter.give_value(0);
   } while (result.last != Step::end && result.last != Step::alarm && result.commands.size() < most);
   result.alarm = interpreter.alarm();
   result.modal = interpreter.modal();
@@ -228,8 +246,9 @@ struct SlowSource : TextSource {
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid", "line", "arc",  "dwell", "T",     "S",       "M",
-                                          "frame", "end",  "skip", "tap",   "table", "message", "cycle"};
+  static constexpr const char* kinds[] = {"rapid",   "line",  "arc",  "dwell",  "T",    "S",
+                                          "M",       "frame", "end",  "skip",   "tap",  "table",
+                                          "message", "cycle", "home", "thread", "read", "order"};
   const auto number = [](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
@@ -265,6 +284,7 @@ inline std::string brief(const Command& command) {
     case CommandKind::tool:
     case CommandKind::auxiliary:
       text += std::to_string(command.number);
+      if (command.has_value) text += " at " + number(command.value);
       break;
     case CommandKind::transformation:
       text += command.modal.transformation == Transformation::rtcp ? " rtcp" : " none";
@@ -280,6 +300,13 @@ inline std::string brief(const Command& command) {
       values();
       text += " lead" + number(command.value);
       if (command.number != 0) text += " axis" + std::to_string(command.number);
+      if (command.spindle_speed != 0) text += " S" + number(command.spindle_speed);
+      break;
+    case CommandKind::thread:
+      values();
+      text += " lead" + number(command.value);
+      if (command.lead_change != 0) text += " change" + number(command.lead_change);
+      if (command.start_angle != 0) text += " from" + number(command.start_angle);
       break;
     case CommandKind::table:
       text += std::to_string(static_cast<int>(command.table)) + " " + std::to_string(command.number);
@@ -289,9 +316,18 @@ inline std::string brief(const Command& command) {
         text += " " + number(command.value);
       }
       break;
+    case CommandKind::home:
+      text += std::to_string(command.number);
+      values();
+      if (command.value != 0) text += " F" + number(command.value);
+      break;
+    case CommandKind::spindle_order:
+      text += " " + std::to_string(command.number) + " " + number(command.value);
+      break;
     case CommandKind::message:
     case CommandKind::cycle:
     case CommandKind::end:
+    case CommandKind::read:
       text += " " + std::to_string(command.number);
       break;
   }

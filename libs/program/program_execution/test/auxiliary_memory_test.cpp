@@ -26,6 +26,24 @@ Codes codes(const std::vector<AuxiliaryFunction>& functions) {
   return list;
 }
 
+TEST(AuxiliaryMemory, KeepsTheSurfaceSpeedWithItsLimit) {
+  AuxiliaryMemory memory;
+  Command speed;
+  speed.kind = CommandKind::spindle_speed;
+  speed.value = 200;
+  speed.modal.spindle_mode = language::SpindleMode::surface;
+  speed.modal.spindle_limit = 3000;
+  memory.pass(speed);
+  EXPECT_TRUE(memory.functions().at(0).surface);
+  EXPECT_EQ(memory.functions().at(0).value, 200);
+  EXPECT_EQ(memory.functions().at(0).limit, 3000);
+  speed.value = 795;
+  speed.modal.spindle_mode = language::SpindleMode::speed;
+  memory.pass(speed);
+  EXPECT_FALSE(memory.functions().at(0).surface);
+  EXPECT_EQ(memory.functions().at(0).limit, 0);
+}
+
 TEST(AuxiliaryMemory, GivesTheFunctionsThatAddUpToTheStateInOneSequence) {
   AuxiliaryMemory memory;
   for (const auto m : {8u, 3u, 7u, 4u, 50u}) memory.pass(auxiliary(m));
@@ -39,6 +57,18 @@ TEST(AuxiliaryMemory, GivesTheFunctionsThatAddUpToTheStateInOneSequence) {
   memory.pass(auxiliary(9));
   memory.pass(auxiliary(5));
   EXPECT_EQ(codes(memory.functions()), (Codes{{S, 0}, {M, 5}, {M, 9}}));
+}
+
+TEST(AuxiliaryMemory, KeepsTheAngleOfM19UntilAnotherFunctionOfTheSpindle) {
+  AuxiliaryMemory memory;
+  auto orient = auxiliary(19);
+  orient.value = 90, orient.has_value = true;
+  memory.pass(orient);
+  ASSERT_EQ(codes(memory.functions()), (Codes{{M, 19}}));
+  EXPECT_TRUE(memory.functions()[0].has_value);
+  EXPECT_EQ(memory.functions()[0].value, 90);
+  memory.pass(auxiliary(19));
+  EXPECT_FALSE(memory.functions()[0].has_value);
 }
 
 TEST(AuxiliaryMemory, GivesOnlyTheGroupsAgainThatWereChangedMeanwhile) {

@@ -64,6 +64,16 @@ TEST_F(Reading, GivesEveryCommandWithItsMoveAndTheEndOfTheOneBefore) {
   EXPECT_EQ(commands[3].target[language::X], 25);
 }
 
+TEST_F(Reading, ASearchForReferencesEndsAtTheReferencePosition) {
+  parameters.values[100012] = {30, ""};
+  machine.configure(parameters);
+  EXPECT_EQ(read("G90 F6000\nG1 X10\nG28.2 X0\nG91 G1 X1\nM30\n"), Ending::end);
+  ASSERT_EQ(commands.size(), 4u);
+  EXPECT_EQ(commands[1].kind, language::CommandKind::home);
+  EXPECT_EQ(from[2][language::X], 30);
+  EXPECT_EQ(commands[2].target[language::X], 31);
+}
+
 TEST_F(Reading, JudgesAMoveAsMotionWouldAndNotWhereTheMachineIsNotKnown) {
   const std::string no_speed = "G90 G95 F0.1\nG1 X10\nM30\n", far = "G90 F100\nG1 X401\nM30\n",
                     tap = "G90 S400 M3\nG0 Z5\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\nM30\n";
@@ -107,6 +117,21 @@ TEST_F(Reading, ACycleOfAnotherServiceHasNoParts) {
   ASSERT_GE(commands.size(), 2u);
   EXPECT_EQ(commands[0].kind, language::CommandKind::cycle);
   EXPECT_EQ(commands[1].target[language::X], 20);
+}
+
+TEST_F(Reading, SpindlesAreHomedAndSynchronized) {
+  EXPECT_EQ(read("WHILE #4801 EQ 0\nM3\nENDW\n#4822=1\nWHILE #4812 EQ 0\nENDW\nG0 X1\nM30\n"), Ending::end);
+  // Read: 4801, both marks of 4822, 4812.
+  using language::CommandKind;
+  const CommandKind kinds[] = {
+      CommandKind::read, CommandKind::read,  CommandKind::read, CommandKind::spindle_order,
+      CommandKind::read, CommandKind::rapid, CommandKind::end};
+  ASSERT_EQ(commands.size(), std::size(kinds));
+  for (std::size_t i = 0; i < commands.size(); ++i) EXPECT_EQ(commands[i].kind, kinds[i]) << i;
+  EXPECT_EQ(moves[0].kind, CommandKind::dwell);
+  ReadingOptions options;
+  options.most_idle_reads = 100;
+  EXPECT_EQ(read("WHILE #4812 EQ 1\nENDW\nM30\n", options), Ending::idle);
 }
 
 TEST_F(Reading, EndsWhereAProgramWouldRepeatForEver) {

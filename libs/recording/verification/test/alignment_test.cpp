@@ -35,7 +35,7 @@ class Alignment : public testing::Test {
   }
   void function(std::uint64_t cycle) {
     ++function_;
-    write(topics::auxiliary_request, {0, function_, idl::channel::AuxiliaryKind::M, 3, 0, cycle});
+    write(topics::auxiliary_request, {0, function_, idl::channel::AuxiliaryKind::M, 3, 0, false, cycle});
     write(topics::auxiliary_done, {0, function_, false});
   }
   // Moves from `cycle` on; the setpoints are those of the run's own cycles, plus `off` in the last.

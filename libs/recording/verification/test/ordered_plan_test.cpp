@@ -15,8 +15,10 @@ TEST(OrderedPlan, FeedsEachInputOnceTheServiceHasWrittenWhatItHadWrittenBefore) 
   recording.messages = {
       parameters(1, 1),
       stored(topics::auxiliary_done, idl::plc::AuxiliaryDone{0, 4097, false}, 10),
-      stored(topics::auxiliary_request,
-             idl::channel::AuxiliaryRequest{0, 4097, idl::channel::AuxiliaryKind::NO_AUXILIARY, 3, 0, 0}, 20),
+      stored(
+          topics::auxiliary_request,
+          idl::channel::AuxiliaryRequest{0, 4097, idl::channel::AuxiliaryKind::NO_AUXILIARY, 3, 0, false, 0},
+          20),
       stored(topics::auxiliary_done, idl::plc::AuxiliaryDone{0, 4098, false}, 30),
       stored(topics::feedback, feedback(0, 8), 5),
   };

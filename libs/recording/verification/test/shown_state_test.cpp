@@ -55,6 +55,21 @@ TEST(ShownState, TheMeasurementIsInTheStreamAndItsResultIsReadBesideIt) {
   EXPECT_EQ(answer["result"]["touch_deviation"], 0.001);
 }
 
+TEST(ShownState, ASpindleIsShownWithItsAngleInHundredthsOfADegree) {
+  StoredRecording recording;
+  auto batch = feedback(100, 0);
+  batch.spindles.resize(2);
+  batch.spindles[0].angle = -0.25;      // turns: 270 deg
+  batch.spindles[1].angle = 2.9999999;  // 359.99996 deg, which rounds to a whole turn
+  recording.messages.push_back(stored(topics::feedback, batch, 1));
+  const auto spindles = shown_of(recording)["drive"]["spindles"];
+  EXPECT_EQ(spindles.size(), 2u);
+  EXPECT_EQ(spindles[0]["angle"], 270.0);
+  EXPECT_EQ(spindles[1]["angle"], 0.0);
+  recording.messages.push_back(stored(topics::feedback, feedback(100, 0), 2));
+  EXPECT_FALSE(shown_of(recording)["drive"].contains("spindles")) << "a machine without a spindle";
+}
+
 TEST(ShownState, AxesAreTheLastRowOfTheFeedbackUnderTheirLogicalNumbers) {
   StoredRecording recording;
   idl::parameters::ParameterSet set;

@@ -205,6 +205,22 @@ TEST(Csv, HasTheAngleOfTheSpindlesInEachCycleAndTheirSpeedInTheLastOfABatch) {
   EXPECT_EQ(lines[2], "1,0,0,0,1,1,0.5,0.5,0.75,1000,1,1,2,0.5,0.25,1970-01-01T00:00:00.000000007Z");
 }
 
+TEST(Csv, HasConditionAndReferenceOfEachSpindleWhereTheyWereRecorded) {
+  auto turned = feedback(0, 1);
+  turned.spindle_angle = {0.5};
+  turned.spindle_speed = {1000};
+  turned.spindles.resize(1);
+  turned.spindles[0].condition = idl::stream::SpindleCondition::SPINDLE_ACCELERATING;
+  turned.spindles[0].reference = 1500.5;
+  const auto lines = csv_lines(stored(topics::feedback, turned, 7));
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0],
+            "cycle,channel,epoch,revision,commanded[0],commanded[1],actual[0],actual[1],spindle_angle[0],"
+            "spindle_speed[0],spindle_condition[0],spindle_reference[0],time_utc");
+  EXPECT_EQ(lines[1],
+            "0,0,0,0,1,1,0.5,0.5,0.5,1000,SPINDLE_ACCELERATING,1500.5,1970-01-01T00:00:00.000000007Z");
+}
+
 TEST(Csv, HasTheSetpointOfACoupledSpindle) {
   auto tapping = path_batch(0, true, false);
   tapping.spindle_axis = 4;
@@ -213,6 +229,18 @@ TEST(Csv, HasTheSetpointOfACoupledSpindle) {
   ASSERT_EQ(lines.size(), 1 + std::size_t{batch_cycles});
   EXPECT_TRUE(lines[0].ends_with(",setpoint.W,spindle_axis,spindle,time_utc")) << lines[0];
   EXPECT_TRUE(lines[1].ends_with(",4,0.25,1970-01-01T00:00:00.000000007Z")) << lines[1];
+  tapping.follows_spindle = true;
+  const auto thread = csv_lines(stored(topics::path_batch, tapping, 7));
+  EXPECT_TRUE(thread[0].ends_with(",spindle_axis,spindle,follows_spindle,time_utc")) << thread[0];
+}
+
+TEST(Csv, HasTheRadiusAtWhichAProgramTurns) {
+  auto turning = path_batch(0, true, false);
+  turning.turning_radius.assign(batch_cycles, 40.5);
+  const auto lines = csv_lines(stored(topics::path_batch, turning, 7));
+  ASSERT_EQ(lines.size(), 1 + std::size_t{batch_cycles});
+  EXPECT_TRUE(lines[0].ends_with(",setpoint.W,turning_radius,time_utc")) << lines[0];
+  EXPECT_TRUE(lines[1].ends_with(",40.5,1970-01-01T00:00:00.000000007Z")) << lines[1];
 }
 
 }  // namespace

@@ -33,8 +33,9 @@ void play(const VerifyPlan& plan) {
     } else {
       EXPECT_EQ(span.revision, revision) << "parameters come before what is made with them";
       EXPECT_LE(span.first + span.count, executed + lead) << "never beyond the credit";
-      EXPECT_LT((std::pair<std::uint64_t, std::uint64_t>(span.epoch, span.first)),
-                (std::pair<std::uint64_t, std::uint64_t>(span.epoch, span.first + 1)));
+      const auto begin = std::pair<std::uint64_t, std::uint64_t>(span.epoch, span.first);
+      EXPECT_GE(begin, done) << "no cycle is fed twice, and none after a later one";
+      done = {span.epoch, span.first + span.count};
       auto answer = axis_batch(span.first, span.starts, span.ends, span.epoch);
       progress.observe(stored(topics::kinematics_batch, answer, 0));
     }

@@ -29,12 +29,21 @@ X10 I10 K0
 G0 X10
 G3 X-10 Z10 I-10 K4 L2 F100
 (=== constant surface speed and back to the speed before)
-S500
+(200 m/min at X 40 are 200000 / 80 pi = 795.77 1/min, of which whole ones are kept.)
+S500 G0 X40
+G92 S3000
 G96 S120
-S130
+S200
 G97
 G97 S600
+(=== the limit of the surface speed counts at the centre, and a new one is told)
+G92 S3000
+G96 S100
+G92 S2000
+G92 S2000
+G97
 (=== surface speed in feet)
+G92 S3000
 G20 G96 S100
 (=== limit of the spindle moves nothing)
 G92 S3000

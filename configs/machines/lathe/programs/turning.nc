@@ -1,0 +1,47 @@
+%
+O1001 (Faces a bar of 40 mm diameter, turns it to 30 and 20 mm with a radius of 5 mm; X words are diameters)
+G21 G18 G90 G54 G40 G95
+M64
+G53 G0 X300 Z400
+T1 M6
+S1200 M3
+M8
+(Face)
+G0 X44 Z0
+G1 X-1 F0.15
+G0 Z2
+(Roughing)
+G0 X35
+G1 Z-40 F0.25
+X42
+G0 Z2
+X30.5
+G1 Z-40
+X42
+G0 Z2
+X25
+G1 Z-19.5
+X32
+G0 Z2
+X20.5
+G1 Z-17.5
+X32
+G53 G0 X300 Z400
+(Finishing)
+T2 M6
+S2000
+G0 X0 Z2
+G1 Z0 F0.1
+X10
+G3 X20 Z-5 R5
+G1 Z-18
+G2 X24 Z-20 R2
+G1 X26
+G3 X30 Z-22 R2
+G1 Z-40
+X44
+M9
+G53 G0 X300 Z400
+M5
+M30
+%

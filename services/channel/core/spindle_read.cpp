@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spindle_read.hpp"
+
+#include <cmath>
+
+#include "canonical/spindle_value.hpp"
+
+namespace trunnion::channel {
+
+double spindle_value(const idl::stream::Feedback& feedback, std::uint32_t number) {
+  using canonical::SpindleValue;
+  using idl::stream::SpindleCondition;
+  const auto spindle = canonical::read_spindle(number);
+  if (spindle >= feedback.spindles.size()) return 0;
+  const auto& state = feedback.spindles[spindle];
+  switch (canonical::read_value(number)) {
+    case SpindleValue::homed:
+      return state.homed ? 1 : 0;
+    case SpindleValue::synchronized:
+      return state.condition == SpindleCondition::SPINDLE_SYNCHRONIZED ? 1 : 0;
+    case SpindleValue::master:
+      return state.master + 1;
+    case SpindleValue::error:
+      return state.synchronization_error * 360;
+    case SpindleValue::reference:
+      return state.reference;
+    case SpindleValue::angle:
+      return (state.angle - std::floor(state.angle)) * 360;
+    case SpindleValue::positioned:
+      return state.condition == SpindleCondition::SPINDLE_POSITIONING ||
+                     state.condition == SpindleCondition::SPINDLE_ORIENTED ||
+                     state.condition == SpindleCondition::SPINDLE_FOLLOWS_PATH
+                 ? 1
+                 : 0;
+  }
+  return 0;
+}
+
+}  // namespace trunnion::channel
