@@ -259,7 +259,7 @@ void ChannelService::drain() {
   CycleReply cycle;
   while (cycle_replies_.take(cycle)) core_.on_cycle_reply(cycle);
   idl::service::Cluster cluster;
-  while (cluster_reader_.take(cluster)) core_.set_ready(cluster.ready);
+  while (cluster_reader_.take(cluster)) core_.set_ready(cluster.ready), have_cluster_ = true;
   watch_alarms();
 }
 
@@ -366,12 +366,14 @@ service::Health ChannelService::health() const {
   const bool tables = have_tools_ && have_offsets_ && have_programs_;
   health.lifecycle = core_.unusable()                 ? Lifecycle::FAULT
                      : !core_.configured() || !tables ? Lifecycle::UNCONFIGURED
-                     : core_.recovered()              ? Lifecycle::ACTIVE
+                     : !core_.recovered()             ? Lifecycle::INACTIVE
+                     : have_cluster_                  ? Lifecycle::ACTIVE
                                                       : Lifecycle::INACTIVE;
   health.detail = core_.unusable()      ? core_.unusable()->text
                   : !core_.configured() ? "waiting for parameters"
                   : !tables             ? "waiting for tools, offsets and programs"
                   : !core_.recovered()  ? "waiting for the drive"
+                  : !have_cluster_      ? "waiting for the launcher"
                                         : "";
   health.messages_in = messages_in_;
   health.messages_out = messages_out_;

@@ -96,6 +96,9 @@ class ChannelService : public service::Service {
   bool record_failed_ = false;
   bool plc_hold_ = false;
   bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;
+  // A channel that has not heard the launcher refuses to start: it must not be counted as one that takes
+  // part.
+  bool have_cluster_ = false;
   idl::stream::PathBatch batch_;
   idl::stream::Feedback feedback_, present_;
   bool have_present_ = false;
