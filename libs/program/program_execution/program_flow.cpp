@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_execution/program_flow.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -164,10 +166,10 @@ FlowState ProgramFlow::take_leg() {
   if (!without_reference_.empty()) return fail_without_reference();
   // Behind the last of them another thread would begin, out of phase with this one.
   if (legs_.size() == ThreadPath::most_legs)
-    return fail(language::AlarmNumber::thread_impossible,
-                std::string(language::alarm_text(language::AlarmNumber::thread_impossible)) +
-                    ": it has more than " + std::to_string(ThreadPath::most_legs) +
-                    " blocks; end it with G9, or make it of fewer blocks");
+    return fail(
+        language::AlarmNumber::thread_impossible,
+        fmt::format("{}: it has more than {} blocks; end it with G9, or make it of fewer blocks",
+                    language::alarm_text(language::AlarmNumber::thread_impossible), ThreadPath::most_legs));
   const auto from = legs_.empty() ? motion_->end_position() : legs_.back().target;
   if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
   auto free = ask_guard(from);
@@ -483,9 +485,9 @@ FlowState ProgramFlow::fill(bool single_block) {
     const bool move =
         is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke || (thread && !coupled);
     if (!tap_in_hole_.empty() && !tapping_ && moves_axes(command_.kind))
-      return fail(
-          language::AlarmNumber::tap_removal_thread,
-          std::string(language::alarm_text(language::AlarmNumber::tap_removal_thread)) + ": " + tap_in_hole_);
+      return fail(language::AlarmNumber::tap_removal_thread,
+                  fmt::format("{}: {}", language::alarm_text(language::AlarmNumber::tap_removal_thread),
+                              tap_in_hole_));
     if (std::exchange(behind_thread_, false) && continues)
       return fail_search("the line continues a thread: start before the first block of it");
     if (threading_ && !continues && !(coupled && legs_.empty())) {
