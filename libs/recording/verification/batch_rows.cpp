@@ -93,6 +93,8 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
     out.push_back({"starts", f.starts && row == 0});
     out.push_back({"ends", f.ends && row + 1 == f.count});
     out.push_back({"line", row < f.lines.size() ? f.lines[row] : 0});
+  };
+  const auto coupled = [&](const auto& f) {
     if (row < f.turning_radius.size()) out.push_back({"turning_radius", f.turning_radius[row]});
     if (row >= f.spindle.size()) return;
     out.push_back({"spindle_axis", f.spindle_axis});
@@ -107,6 +109,7 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
       out.push_back({"tool_length", path_.tool_length});
       for (std::size_t i = 0; i < path_width; ++i)
         out.push_back({std::string("setpoint.") + path_letters[i], path_.setpoints[row * path_width + i]});
+      coupled(path_);
       if (row + 1 == path_.count) states_of(path_, out);
       break;
     case Kind::axis:
@@ -114,6 +117,7 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
       for (std::size_t i = 0; i < axis_.axes.size(); ++i)
         out.push_back(
             {"setpoint.axis" + std::to_string(axis_.axes[i]), axis_.setpoints[row * axis_.axes.size() + i]});
+      coupled(axis_);
       if (row + 1 == axis_.count) states_of(axis_, out);
       break;
     case Kind::feedback:
