@@ -13,7 +13,7 @@ bool is_program(std::string_view stored, std::string_view name) {
   const auto extension = stored.substr(name.size());
   if (extension.empty()) return true;
   const bool digit = extension.size() > 1 && extension[1] >= '0' && extension[1] <= '9';
-  return extension[0] == '.' && !digit && extension.find('.', 1) == std::string_view::npos;
+  return extension[0] == '.' && !digit;
 }
 
 }  // namespace

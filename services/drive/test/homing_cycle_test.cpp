@@ -273,7 +273,7 @@ TEST_F(DeadSwitch, AContinuedDriveEndsTheSearchOfTheSameChannel) {
 }
 
 // X (0) of channel 0, Z (1) of channel 1. X begins 5 mm before its switch, Z 3 mm.
-struct TwoChannels : ::testing::Test {
+struct SearchesOfTwoChannels : ::testing::Test {
   DriveCore core{std::make_unique<SimulatedHardware>()};
   static machine::Parameters parameters() {
     machine::Parameters p;
@@ -286,7 +286,7 @@ struct TwoChannels : ::testing::Test {
     }
     return p;
   }
-  explicit TwoChannels(bool homed_before = false) : homed(homed_before) {}
+  explicit SearchesOfTwoChannels(bool homed_before = false) : homed(homed_before) {}
   void SetUp() override {
     core.configure(parameters(), true);
     Memory memory = core.memory();
@@ -319,7 +319,7 @@ struct TwoChannels : ::testing::Test {
   const bool homed;
 };
 
-TEST_F(TwoChannels, TheSecondSearchBeginsWhenTheFirstOneHasEnded) {
+TEST_F(SearchesOfTwoChannels, TheSecondSearchBeginsWhenTheFirstOneHasEnded) {
   request(0, 1, StreamRequestKind::HOME, 0);
   request(1, 7, StreamRequestKind::HOME, 1);
   EXPECT_EQ(echo(1).request, 0u) << "it is answered when it begins";
@@ -344,7 +344,7 @@ TEST_F(TwoChannels, TheSecondSearchBeginsWhenTheFirstOneHasEnded) {
   EXPECT_TRUE(core.take_events().empty());
 }
 
-TEST_F(TwoChannels, ALeaveOfItsChannelEndsASearchThatWaits) {
+TEST_F(SearchesOfTwoChannels, ALeaveOfItsChannelEndsASearchThatWaits) {
   request(0, 1, StreamRequestKind::HOME, 0);
   request(1, 1, StreamRequestKind::HOME, 1);
   request(1, 2, StreamRequestKind::LEAVE);
@@ -355,7 +355,7 @@ TEST_F(TwoChannels, ALeaveOfItsChannelEndsASearchThatWaits) {
   EXPECT_EQ(core.commands()[1], 0);
 }
 
-TEST_F(TwoChannels, AStopForAnAlarmEndsThoseThatWaitToo) {
+TEST_F(SearchesOfTwoChannels, AStopForAnAlarmEndsThoseThatWaitToo) {
   begin_both();
   core.stop();
   run();
@@ -363,7 +363,7 @@ TEST_F(TwoChannels, AStopForAnAlarmEndsThoseThatWaitToo) {
   expect_refused();
 }
 
-TEST_F(TwoChannels, AnEmergencyStopEndsThoseThatWaitToo) {
+TEST_F(SearchesOfTwoChannels, AnEmergencyStopEndsThoseThatWaitToo) {
   begin_both();
   core.set_enables({1, 1}, true);
   run();
@@ -371,7 +371,7 @@ TEST_F(TwoChannels, AnEmergencyStopEndsThoseThatWaitToo) {
   expect_refused();
 }
 
-TEST_F(TwoChannels, AContinuedDriveBeginsTheSearchThatWaitsWithTheSameBits) {
+TEST_F(SearchesOfTwoChannels, AContinuedDriveBeginsTheSearchThatWaitsWithTheSameBits) {
   request(0, 1, StreamRequestKind::HOME, 0);
   request(1, 1, StreamRequestKind::HOME, 1);
   for (int i = 0; i < 100; ++i) core.step();
@@ -390,8 +390,8 @@ TEST_F(TwoChannels, AContinuedDriveBeginsTheSearchThatWaitsWithTheSameBits) {
   EXPECT_EQ(echo_of(other, 1).search, ReferenceSearch::REFERENCE_FOUND);
 }
 
-struct TwoReferencedChannels : TwoChannels {
-  TwoReferencedChannels() : TwoChannels(true) {}
+struct TwoReferencedChannels : SearchesOfTwoChannels {
+  TwoReferencedChannels() : SearchesOfTwoChannels(true) {}
 };
 
 // The program of that channel would find no place in the stream behind its next pause.
