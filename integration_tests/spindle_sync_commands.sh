@@ -20,6 +20,7 @@ start_cluster "$work/m"
 # After a line that has moved an axis, the drives are on.
 "$trunnion" mdi 'G53 G0 X290' --domain "$domain" > "$work/said"
 one_line 'spindle S2 has not passed its index mark since the start' 'M81 R30'
+"$trunnion" channel mode auto --domain "$domain"
 run_to_end marks.nc
 # It couples nothing, and everything is at rest again: the test behind it runs.
 one_line 'M64 couples no spindles: name the M function of the machine.s PLC with --on' M64 --speed 1000
@@ -72,6 +73,7 @@ sed -i 's/speed_error: -0.001/speed_error: -0.001, disturbance: {share: 0.0075, 
 grep -q 'hz: 7' "$work/m/truth.yaml" || fail "truth.yaml has no speed_error of S2"
 rm -rf "$work/state"
 start_cluster "$work/m"
+"$trunnion" channel mode auto --domain "$domain"
 run_to_end marks.nc
 status=0
 sync_test 'M81 R30' --speed 1000 --json > "$work/bad.json" 2> "$work/error" || status=$?
