@@ -59,6 +59,12 @@ END_PYTHON
 sync_test 'M81 R30' --speed 1000 --settling 3 --record 1 > "$work/table" || fail "$(cat "$work/table")"
 grep -Eq '^S1000 largest error  *[0-9.]+ deg  *limit 0\.5  *pass$' "$work/table" || fail "$(cat "$work/table")"
 grep -q '^spindle S2 follows S1 the other way round' "$work/table" || fail "$(cat "$work/table")"
+
+# While the drive is replaced nothing would hold the spindles together.
+"$trunnion" mdi 'M81 R30' --domain "$domain" > "$work/said"
+! "$trunnion" swap drive --domain "$domain" > "$work/out" 2> "$work/error" || fail "the drive is swapped"
+grep -q 'no spindle follows another one: spindle 2 follows spindle 1; end the synchronization first' "$work/error" ||
+  fail "$(cat "$work/error")"
 stop_cluster
 
 # The speed of S2 goes up and down by 0.75 % seven times in a second: at 1000 1/min by 45 deg/s, which is 45 / (2 pi 7) = 1.02 deg.
