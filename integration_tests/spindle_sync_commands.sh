@@ -62,6 +62,7 @@ grep -q '^spindle S2 follows S1 the other way round' "$work/table" || fail "$(ca
 
 # While the drive is replaced nothing would hold the spindles together.
 "$trunnion" mdi 'M81 R30' --domain "$domain" > "$work/said"
+"$trunnion" mdi 'G4 X0.1' --domain "$domain" > "$work/said"
 ! "$trunnion" swap drive --domain "$domain" > "$work/out" 2> "$work/error" || fail "the drive is swapped"
 grep -q 'no spindle follows another one: spindle 2 follows spindle 1; end the synchronization first' "$work/error" ||
   fail "$(cat "$work/error")"
