@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # spindle_sync_commands.sh TRUNNION MACHINES PYTHON: the command servo test spindle-sync on the lathe: what it refuses, its figures
-# and its picture; then on a lathe whose sub-spindle does not turn evenly.
+# and its picture; then on a lathe whose sub-spindle does not turn evenly. And channel couple and uncouple, with both at rest.
 set -euo pipefail
 trunnion=$1 python=$3
 . "$(dirname "$0")/cluster.sh"
@@ -20,6 +20,15 @@ start_cluster "$work/m"
 # After a line that has moved an axis, the drives are on.
 "$trunnion" mdi 'G53 G0 X290' --domain "$domain" > "$work/said"
 one_line 'spindle S2 has not passed its index mark since the start' 'M81 R30'
+by_hand() { "$trunnion" channel "$@" --domain "$domain" > "$work/said" 2> "$work/error"; }
+refused() {
+  local expected=$1
+  shift
+  ! by_hand "$@" || fail "$*: it works: $(cat "$work/said")"
+  [ "$(wc -l < "$work/error")" = 1 ] && grep -q "$expected" "$work/error" || fail "$*: $(cat "$work/error")"
+}
+refused 'alarm 1139: ' couple S2 S1
+"$trunnion" channel reset --domain "$domain"
 "$trunnion" channel mode auto --domain "$domain"
 run_to_end marks.nc
 # It couples nothing, and everything is at rest again: the test behind it runs.
@@ -59,6 +68,23 @@ END_PYTHON
 sync_test 'M81 R30' --speed 1000 --settling 3 --record 1 > "$work/table" || fail "$(cat "$work/table")"
 grep -Eq '^S1000 largest error  *[0-9.]+ deg  *limit 0\.5  *pass$' "$work/table" || fail "$(cat "$work/table")"
 grep -q '^spindle S2 follows S1 the other way round' "$work/table" || fail "$(cat "$work/table")"
+
+# By hand as a program orders it: both have no M4, so they turn alike.
+by_hand couple S2 S1 30 || fail "couple: $(cat "$work/error")"
+grep -Eq '^S2 .* synchronized, .* follows S1, error -?0\.[0-9]{3} deg$' "$work/said" || fail "$(cat "$work/said")"
+"$trunnion" channel status --json --domain "$domain" > "$work/json"
+"$python" - "$work/json" <<'END_PYTHON' || fail "$(cat "$work/json")"
+import json, sys
+leader, slave = json.load(open(sys.argv[1]))["spindles"]
+assert (slave["condition"], slave["master"], leader["master"]) == ("SPINDLE_SYNCHRONIZED", "S1", ""), slave
+away = (slave["angle_deg"] - leader["angle_deg"] - 30 + 180) % 360 - 180
+assert abs(away) <= 0.52, away  # the window is 0.5, and both angles are rounded
+END_PYTHON
+by_hand uncouple 2 --json || fail "uncouple: $(cat "$work/error")"
+grep -q '"master":""' "$work/said" || fail "$(cat "$work/said")"
+refused 'the machine has no spindle S3: it has S1, S2' couple S2 S3
+# The PLC of the lathe couples S2 only.
+refused 'alarm 132: ' couple S1 S2
 
 # While the drive is replaced nothing would hold the spindles together.
 "$trunnion" mdi 'M81 R30' --domain "$domain" > "$work/said"

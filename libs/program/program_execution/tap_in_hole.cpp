@@ -56,7 +56,7 @@ bool TapInHole::contradicts(const language::AxisValues& from, const language::Ax
   if (!(depth(from) > 0)) return false;
   const auto way = difference(to, from);
   const double length = std::sqrt(product(way, way));
-  const bool out = product(way, direction) <= -in_line * length;
+  const bool out = length > least_depth && product(way, direction) <= -in_line * length;
   // The same helix the other way round.
   const bool same_thread = std::abs(stroke_lead + lead) <= lead_tolerance * std::abs(lead);
   return !out || !same_thread;

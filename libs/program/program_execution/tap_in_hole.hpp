@@ -21,7 +21,8 @@ struct TapInHole {
   /// For the operator, of a tap that is `depth` mm in its hole: "right-hand thread, lead 1.25 mm, 6.500 mm
   /// deep".
   std::string words(double depth) const;
-  /// From inside, a stroke with `stroke_lead`, a Command::value, would not follow the thread out.
+  /// From inside, a stroke with `stroke_lead`, a Command::value, would not follow the thread out. One of U V
+  /// W does not either: what moved the tap in was X, Y or Z.
   bool contradicts(const language::AxisValues& from, const language::AxisValues& to,
                    double stroke_lead) const;
 

@@ -3,6 +3,8 @@
 // setpoints, so that both keep the lead through every acceleration, reversal and stop on the path.
 #pragma once
 
+#include <cstddef>
+
 #include "language/canonical.hpp"
 #include "motion/limits.hpp"
 
@@ -15,8 +17,8 @@ class Tapping {
   /// Of the spindle: as far as the override goes, a tap keeps to the acceleration that the spindle has.
   static constexpr double highest_override = 1.5;
 
-  /// The first stroke of a hole, of kind tap, begins at `start`. Its direction is that into the hole. The
-  /// spindle turns at most at `highest_speed`, 1/min; 0 = no limit.
+  /// The first stroke of a hole, of kind tap, begins at `start`. Its direction is that into the hole, in X Y
+  /// Z, or in U V W when those rest. The spindle turns at most at `highest_speed`, 1/min; 0 = no limit.
   void begin(const AxisValues& start, const language::Command& stroke, double highest_speed = 0);
   void end() { active_ = false, axis_ = 0; }
   bool active() const { return active_; }
@@ -40,6 +42,7 @@ class Tapping {
   bool active_ = false;
   std::uint32_t axis_ = 0;
   AxisValues start_{};
+  std::size_t first_ = language::X;  // of the three axes that direction_ is along, X or U
   language::Vector3 direction_{};
   double lead_ = 1;  // mm per revolution, negative for a left-hand thread
   double highest_speed_ = 0;

@@ -408,5 +408,43 @@ TEST_F(Tap, AfterTheStreamWasLostInTheThreadTheProgramCannotBeResumed) {
   EXPECT_EQ(drive.rows.size(), moved) << "nothing moved again";
 }
 
+// 10 mm at a lead of 1.25 mm are 8 turns, counter-clockwise out of a right-hand thread; a spindle that gains
+// 2000 1/min in a second gains 2 in a cycle. W is the axis 3.
+TEST_F(Tap, ATapIsMovedOutAlongASecondaryAxisButNotOneThatIsKnownToBeInAHoleAlongAnother) {
+  parameters->values[40009] = {3, ""}, parameters->values[103000] = {0, "W"};
+  parameters->values[103006] = {400, ""}, parameters->values[103007] = {-400, ""};
+  const std::string removal = "S200 G84.9 W10 K1.25\nM30\n";
+  drive = testing::FakeDrive(4);
+  begin();
+  start(removal);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_TRUE(events.empty());
+  std::vector<double> turns;
+  for (std::size_t i = 0; i < drive.rows.size(); ++i) {
+    if (!drive.spindle[i]) continue;
+    ASSERT_NEAR(drive.rows[i][8], -1.25 * *drive.spindle[i], 1e-9);
+    EXPECT_EQ(drive.rows[i][2], 0);
+    turns.push_back(*drive.spindle[i]);
+  }
+  ASSERT_GT(turns.size(), 1000u);
+  EXPECT_NEAR(turns.back(), -8, 1e-9);
+  for (std::size_t i = 2; i < turns.size(); ++i) {
+    const double gain = (turns[i] - 2 * turns[i - 1] + turns[i - 2]) * 60000;  // 1/min in a cycle
+    ASSERT_LE(std::abs(gain), 2 * (1 + 1e-3));
+  }
+  // It was left in a hole along Z.
+  drive = testing::FakeDrive(4);
+  begin();
+  leave_tap_in_hole();
+  events.clear();
+  const auto moved = drive.rows.size();
+  start(removal);
+  run();
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().alarm, &alarm::tap_removal_thread);
+  EXPECT_EQ(drive.rows.size(), moved);
+}
+
 }  // namespace
 }  // namespace trunnion::channel

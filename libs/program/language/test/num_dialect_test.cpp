@@ -231,7 +231,8 @@ const std::vector<NumFault>& num_faults() {
       {num_removal_words, "G39+ M3 M46 S200 K1 Z10", 1, 9, ": M46, NUM error 2"},
       {num_removal_twice, "G39+ M3 M4 S200 K1 Z10", 1, 1, ": G39+, NUM error 1"},
       {num_removal_twice, "G39+ M3 M40 M41 S200 K1 Z10", 1, 1, ": G39+, NUM error 1"},
-      {tap_removal_axis, "M64 G39+ M3 M41 S200 K1.2 W10", 1, 5, ": G39+"},
+      {tap_removal_axis, "M64 G39+ M3 M41 S200 K1.2 Z1 W10", 1, 5, ": G39+"},
+      {num_removal_words, "G39+ M3 S200 K1 A10", 1, 1, ": G39+, NUM error 2"},
       {tap_removal_axis, "G39+ M3 S200 K1 X1 Z10", 1, 1, ": G39+"},
       {tap_removal_spindle, "M3\nG39+ M4 S200 K1 Z10", 2, 1, ": G39+"},
       {tap_removal_lead, "G39+ M4 S0 K1 Z10", 1, 1, ": G39+"},
@@ -419,6 +420,7 @@ TEST(NumDialect, ADialectThatIsNamedGoesBeforeThatOfTheMachine) {
 }
 
 TEST(NumDialect, ProgramsOfTheManualRun) {
+  EXPECT_THAT(num_stream("G39+ M3 M41 S200 K1.2 W10\n"), ElementsAre("S200", "tap W10 lead1.2", "end 2"));
   EXPECT_THAT(num_stream("E80000=3 E80001=42\nL0=200 L1=1.25\nG39+ ME80000 ME80001 SL0 KL1 Z-10\n"),
               ElementsAre("S200", "tap Z-10 lead1.25", "end 2"));
   // Thread cutting with tapered retraction: lead 2, taught at Z-13 and 90 deg, from Z5 9 revolutions.

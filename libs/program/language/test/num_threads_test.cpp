@@ -78,7 +78,7 @@ TEST(NumDialect, ATapBetweenThreadsHasItsOwnLead) {
 }
 
 // Ten millimetres at a lead of 1.2 mm; clockwise with M3 whatever the direction. The PLC gets no M3, M4 and
-// range. The document prints W10, which is refused (in num_faults() below): here it is Z10.
+// range.
 TEST(NumDialect, ATapIsRemovedInTheSenseThatIsWritten) {
   EXPECT_THAT(num_stream("M64 G39+ M3 M41 S200 K1.2 Z10\nX1\nM2"),
               ElementsAre("M64", "S200", "tap Z10 lead1.2", "end 2"));
