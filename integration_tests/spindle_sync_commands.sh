@@ -85,13 +85,6 @@ grep -q '"master":""' "$work/said" || fail "$(cat "$work/said")"
 refused 'the machine has no spindle S3: it has S1, S2' couple S2 S3
 # The PLC of the lathe couples S2 only.
 refused 'alarm 132: ' couple S1 S2
-
-# While the drive is replaced nothing would hold the spindles together.
-"$trunnion" mdi 'M81 R30' --domain "$domain" > "$work/said"
-"$trunnion" mdi 'G4 X0.1' --domain "$domain" > "$work/said"
-! "$trunnion" swap drive --domain "$domain" > "$work/out" 2> "$work/error" || fail "the drive is swapped"
-grep -q 'no spindle follows another one: spindle 2 follows spindle 1; end the synchronization first' "$work/error" ||
-  fail "$(cat "$work/error")"
 stop_cluster
 
 # The speed of S2 goes up and down by 0.75 % seven times in a second: at 1000 1/min by 45 deg/s, which is 45 / (2 pi 7) = 1.02 deg.
