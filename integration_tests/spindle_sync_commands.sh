@@ -6,7 +6,8 @@ set -euo pipefail
 trunnion=$1 python=$3
 . "$(dirname "$0")/cluster.sh"
 cp -rL "$2/lathe" "$work/m"
-# Gear 2 for 1000 and 2000 1/min: while a spindle follows, the gear does not change. Both index marks pass.
+# Gear 2 has 1000 and 2000 1/min: while a spindle follows, the gear does not change. Both index marks pass.
+printf '%%\nO9101\nM64\nM41\nM30\n%%\n' > "$work/m/programs/gear1.nc"
 printf '%%\nO9100\nM64\nM42\nS800 M3\nM5\nM65\nM19\nM5\nM64\nM30\n%%\n' > "$work/m/programs/marks.nc"
 sync_test() { "$trunnion" servo test spindle-sync --on "$@" --domain "$domain"; }
 one_line() {
@@ -43,9 +44,10 @@ report = json.load(open(sys.argv[1]))
 assert (report["machine"], report["test"], report["reached"]) == ("lathe", "spindle-sync", True)
 assert "axes" not in report and report["proposal"] == []
 details = {"master": "S1", "slave": "S2", "reverse": True, "angle_deg": 30, "window_deg": 0.5, "gain_per_min_per_rev": 500,
-           "settling_s": 2, "record_s": 5}
+           "settling_s": 2, "record_s": 5, "lowest_per_min": 800, "highest_per_min": 4000}
 assert report["details"] == details, report["details"]
 assert report["notes"][0].startswith("spindle S2 follows S1 the other way round, angle 30 deg, ordered by M81 R30; window 0.5 deg")
+assert report["notes"][1].startswith("speeds 1000, 2000 1/min, chosen from 800 .. 4000 1/min (S1 in gear 2: "), report["notes"]
 figures = {f["name"]: f for f in report["figures"]}
 for speed, slow in ((1000, 1.001), (2000, 2.002)):
     def value(name): return figures[f"S{speed} {name}"]["value"]
@@ -85,6 +87,15 @@ grep -q '"master":""' "$work/said" || fail "$(cat "$work/said")"
 refused 'the machine has no spindle S3: it has S1, S2' couple S2 S3
 # The PLC of the lathe couples S2 only.
 refused 'alarm 132: ' couple S1 S2
+
+# In gear 1, which has 0 .. 1000 1/min, half of the highest and the highest are tested, and nothing else is begun.
+"$trunnion" channel mode auto --domain "$domain"
+run_to_end gear1.nc
+one_line '2000 1/min cannot be tested: spindle S1 is in gear 1, which has 0 .. 1000 1/min (103985); engage gear 2 (M42' \
+  'M81 R30' --speed 500 --speed 2000
+sync_test 'M81 R30' --settling 3 --record 1 > "$work/table" || fail "$(cat "$work/table")"
+grep -Eq '^S500 to S1000 largest error ' "$work/table" || fail "$(cat "$work/table")"
+grep -q '^speeds 500, 1000 1/min, chosen from 0 .. 1000 1/min (S1 in gear 1: ' "$work/table" || fail "$(cat "$work/table")"
 stop_cluster
 
 # The speed of S2 goes up and down by 0.75 % seven times in a second: at 1000 1/min by 45 deg/s, which is 45 / (2 pi 7) = 1.02 deg.

@@ -358,6 +358,51 @@ INSTANTIATE_TEST_SUITE_P(Services, SwappingInMotion,
                                          HandedOver{"parameters", 1.0}),
                          [](const auto& service) { return std::string(service.param.service); });
 
+// In the simulation the spindle of a new drive is at rest at once.
+TEST_F(Swapping, TheDriveIsNotSwappedWhileASpindleTurnsAndOtherServicesAre) {
+  Cluster cluster("ac-table");
+  const auto order = [&](const std::string& block) {
+    return cluster.until([&] {
+      try {
+        cluster.client().mdi(0, block);
+        return true;
+      } catch (const std::exception&) {
+        return false;  // the channel has not heard yet that all are ready
+      }
+    });
+  };
+  const auto speed = [&] {
+    return cluster.feedback.spindle_speed.empty() ? 0 : cluster.feedback.spindle_speed[0];
+  };
+  cluster.client().set_mode(0, Mode::MDI);
+  ASSERT_TRUE(order("S1000 M3")) << cluster.told();
+  // Virtual time passes until the PLC has the speed within its window, 5 %.
+  ASSERT_TRUE(cluster.until([&] { return speed() > 900; })) << speed() << cluster.told();
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  const auto before = pid(cluster, "drive");
+  const auto reply = swap(cluster, "drive");
+  EXPECT_FALSE(reply.accepted);
+  EXPECT_EQ(reply.outcome, SwapOutcome::REFUSED);
+  EXPECT_TRUE(reply.reason.starts_with("The drive can be swapped at rest only: spindle 1 turns at "))
+      << reply.reason;
+  EXPECT_TRUE(
+      reply.reason.ends_with(" 1/min; stop it (M5) first, the new drive begins with its spindles at rest"))
+      << reply.reason;
+  EXPECT_EQ(pid(cluster, "drive"), before);
+  for (const std::string service : {"kinematics", "plc", "parameters"}) {
+    const auto other = swap(cluster, service);
+    ASSERT_TRUE(other.accepted) << service << " " << other.reason << cluster.told();
+    ASSERT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
+  }
+  EXPECT_GT(speed(), 900) << "no service that was swapped has stopped it";
+
+  ASSERT_TRUE(order("M5")) << cluster.told();
+  ASSERT_TRUE(cluster.until([&] { return speed() <= 5; })) << speed() << cluster.told();
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  const auto stopped = swap(cluster, "drive");
+  EXPECT_TRUE(stopped.accepted) << stopped.reason << cluster.told();
+}
+
 TEST_F(Swapping, ChannelAndDriveAreSwappedAtRestWithTheirStateAndNotInMotion) {
   Cluster cluster("ac-table");
   cluster.client().set_mode(0, Mode::MDI);

@@ -48,6 +48,10 @@ refused "channel 0 is .*: upgrade a machine at rest" upgrade "$work/other" "${he
 "$trunnion" channel reset "${here[@]}"
 await_idle
 
+"$trunnion" mdi "S1000 M3" "${here[@]}" > "$work/said" || fail "mdi"
+refused "spindle 1 turns at [0-9]* 1/min; stop it (M5) first: upgrade a machine at rest" upgrade "$work/other" "${here[@]}"
+"$trunnion" mdi "M5" "${here[@]}" > "$work/said" || fail "mdi"
+
 "$trunnion" upgrade "$work/other" "${here[@]}" > "$work/upgrade" 2>&1 || { cp "$work/upgrade" "$work/said"; fail "upgrade"; }
 [ "$(grep -c '^\[[0-9]*/10\] ' "$work/upgrade")" = 10 ] || { cp "$work/upgrade" "$work/said"; fail "not ten lines"; }
 # The launcher publishes the new process numbers a moment after a swap.

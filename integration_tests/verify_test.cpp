@@ -64,6 +64,24 @@ TEST(Verify, ACompensationWithTheSignOfBacklashTurnedRoundIsFound) {
   EXPECT_FALSE(result.equal());
 }
 
+TEST(Verify, AnAngleOfASpindleThatIsWrongInOneBitIsFoundInItsCycle) {
+  auto options = golden("gantry-cb-head", "drive");
+  const auto right = verification::verify(options);
+  EXPECT_TRUE(right.equal()) << right.problem << text_of(right.difference, "recorded", "written now");
+  EXPECT_EQ(right.not_compared, "");
+  options.executable = cluster::binary_directory() + "/drive_one_bit";
+  const auto result = verification::verify(options);
+  EXPECT_EQ(result.problem, "") << "it answers everything";
+  ASSERT_TRUE(result.difference.first.has_value());
+  EXPECT_EQ(result.difference.first->topic, "feedback");
+  EXPECT_EQ(result.difference.first->field, "spindle_angle[0]");
+  EXPECT_EQ(result.difference.first->meaning, "spindle 1: angle, rev");
+  ASSERT_EQ(result.difference.topics.size(), 1u);
+  ASSERT_EQ(result.difference.topics[0].fields.size(), 1u);
+  EXPECT_EQ(result.difference.topics[0].fields.begin()->second.count, 1u);
+  EXPECT_FALSE(result.equal());
+}
+
 // The golden recording compensates errors that the machine is not delivered with.
 TEST(Verify, SaysThatTheParametersAreTheRecordingsAndUsesTheMachinesWhenAsked) {
   auto options = golden("ac-table", "compensation");

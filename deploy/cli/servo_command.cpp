@@ -187,9 +187,9 @@ void add_spindle_sync(CLI::App& tests, Common& common) {
   add_machine(command, *o);
   auto& test = o->spindle_sync;
   command
-      ->add_option(
-          "--speed", test.speeds,
-          "Of the master, 1/min; may be repeated, in the order of the changes (default 1000, then 2000)")
+      ->add_option("--speed", test.speeds,
+                   "Of the master, 1/min; may be repeated, in the order of the changes (default 1000, then "
+                   "2000, or what the gears in force have instead)")
       ->allow_extra_args(false)
       ->check(CLI::Range(1.0, 5e5));
   command->add_option("--on", test.on,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // upgrade: the services of another build in the place of the running ones, one after the other
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -14,6 +15,8 @@
 #include "cluster/upgrade.hpp"
 #include "commands.hpp"
 #include "machine/machine.hpp"
+#include "machine/service_constants.hpp"
+#include "stream/drive_at_rest.hpp"
 #include "text/quantity.hpp"
 
 namespace trunnion::cli {
@@ -29,6 +32,20 @@ void require_rest(cluster::Client& client, const machine::MachineConfig& config)
         now != idl::channel::RunState::IDLE)
       throw std::runtime_error("channel " + std::to_string(channel) + " is " + bus::to_string(now) +
                                ": upgrade a machine at rest, with no program started");
+}
+
+// The launcher refuses the drive, too, but only when the services before it have been replaced.
+void require_drive_at_rest(cluster::Client& client, const machine::MachineConfig& config,
+                           const std::vector<cluster::Replacement>& all) {
+  if (std::ranges::none_of(
+          all, [](const auto& one) { return one.request.service == machine::service::drive.name; }))
+    return;
+  const std::string rest = ": upgrade a machine at rest; nothing was replaced";
+  for (std::uint16_t channel = 0; channel < config.channels; ++channel)
+    if (const auto tap = stream::tap_in_hole(client.newest(topics::channel_state, channel)); !tap.empty())
+      throw std::runtime_error("channel " + std::to_string(channel) + ": " + tap + rest);
+  if (const auto spindle = stream::spindle_at_work(client.newest(topics::feedback)); !spindle.empty())
+    throw std::runtime_error(spindle + rest);
 }
 
 class Swapper {
@@ -70,6 +87,7 @@ int upgrade(const Common& common, const std::string& directory, double timeout) 
   require_rest(client, config);
   auto all =
       cluster::plan_upgrade(cluster, config, list, fs::absolute(directory).lexically_normal().string());
+  require_drive_at_rest(client, config, all);
   Swapper swapper(cluster, timeout);
   cluster::replace_all(
       all, [&](const SwapRequest& request) { return swapper.swap(request); },

@@ -26,6 +26,7 @@ int verify_service(const Common& common, verification::VerifyOptions options,
     json["problem"] = result.problem;
     json["parameters"] = result.parameters;
     json["cut_off"] = result.cut_off;
+    json["not_compared"] = result.not_compared;
     json["inputs"] = result.inputs;
     json["outputs"] = result.outputs;
     json["unrecorded"] = result.unrecorded;
@@ -42,6 +43,7 @@ int verify_service(const Common& common, verification::VerifyOptions options,
   }
   std::cout << verification::text_of(result.difference, "recorded", "written now");
   if (!result.parameters.empty()) std::cout << "parameters: " << result.parameters << "\n";
+  if (!result.not_compared.empty()) std::cout << "not compared: " << result.not_compared << "\n";
   if (!result.problem.empty()) std::cout << "problem: " << result.problem << "\n";
   if (!result.cut_off.empty()) std::printf("verified as far as it goes: %s\n", result.cut_off.c_str());
   std::printf("%s: %s; %zu messages in, %zu out", options.service.c_str(),

@@ -13,6 +13,7 @@
 #include "machine/service_constants.hpp"
 #include "service/node.hpp"
 #include "storage/file.hpp"
+#include "stream/drive_at_rest.hpp"
 #include "stream/stage_names.hpp"
 #include "stream/stage_service.hpp"
 #include "swap_journal.hpp"
@@ -101,9 +102,10 @@ void Swap::read(double now) {
     executed_ = std::max(executed_, feedback.first + feedback.count);
     if (comparison_ == Comparison::ticks && feedback.tick > tick_) moved_ = now;
     tick_ = std::max(tick_, feedback.tick);
+    if (old_.entry.service == machine::service::drive.name) newest_ = feedback;
   }
   idl::channel::ChannelState state;
-  while (channels_.take(state)) run_states_[state.channel] = state.state;
+  while (channels_.take(state)) states_[state.channel] = state;
   alarms_.read();
   idl::stream::AxisBatch batch;
   while (standby_ && standby_->take(batch)) batches_.standby(batch);
@@ -116,13 +118,19 @@ void Swap::read(double now) {
 // Why the service cannot be replaced now; empty when it can.
 std::string Swap::why_not_at_rest() const {
   const auto& service = old_.entry.service;
-  if (service != "channel" && service != "drive") return "";
-  for (const auto& [channel, state] : run_states_)
-    if ((service == machine::service::drive.name || channel == old_.entry.channel) &&
-        state != RunState::IDLE && state != RunState::HELD)
-      return "The " + service + " can be swapped at rest only: channel " + std::to_string(channel) + " is " +
-             bus::to_string(state);
-  return "";
+  const bool is_drive = service == machine::service::drive.name;
+  if (service != machine::service::channel.name && !is_drive) return "";
+  const auto only = "The " + service + " can be swapped at rest only: ";
+  for (const auto& [channel, state] : states_)
+    if ((is_drive || channel == old_.entry.channel) && state.state != RunState::IDLE &&
+        state.state != RunState::HELD)
+      return only + "channel " + std::to_string(channel) + " is " + bus::to_string(state.state);
+  if (!is_drive) return "";
+  for (const auto& [channel, state] : states_)
+    if (const auto tap = stream::tap_in_hole(state); !tap.empty())
+      return only + "channel " + std::to_string(channel) + ": " + tap;
+  const auto spindle = stream::spindle_at_work(newest_);
+  return spindle.empty() ? "" : only + spindle + ", the new drive begins with its spindles at rest";
 }
 
 std::string Swap::difference() const {

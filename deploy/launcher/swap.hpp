@@ -64,7 +64,8 @@ class Swap {
   bus::Reader<idl::channel::ChannelState> channels_;
   AlarmsOfServices alarms_;
   bus::Writer<idl::service::Promotion> promotions_;
-  std::map<std::uint16_t, idl::channel::RunState> run_states_;
+  std::map<std::uint16_t, idl::channel::ChannelState> states_;
+  idl::stream::Feedback newest_;  // of a swap of the drive
   stream::BatchComparison batches_;
   std::uint64_t executed_ = 0, tick_ = 0, promoted_cycle_ = 0;
   double began_ = 0, moved_ = 0;

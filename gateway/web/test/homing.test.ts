@@ -29,7 +29,8 @@ test("O9990 is the program that the channel finds under this name", () => {
 // It homes the axis that L0 names, and L0 is none here.
 test("a stored 9990.9 is never run in its place", () => {
   expect(callsHomingProgram(named("O9990.9"))).toBe(false);
-  expect(callsHomingProgram(named("O9990.9", "O9990.nc"))).toBe(false);
+  expect(callsHomingProgram(named("O9990.9.nc"))).toBe(false);
+  expect(callsHomingProgram(named("O9990.9", "O9990.nc"))).toBe(true);
   expect(callsHomingProgram(named("O9990", "O9990.9"))).toBe(true);
 });
 

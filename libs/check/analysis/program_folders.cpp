@@ -5,6 +5,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "machine/program_number.hpp"
+
 namespace trunnion::analysis {
 namespace {
 
@@ -13,20 +15,11 @@ std::string capitals(std::string text) {
   return text;
 }
 
-/// The digits of a program's name without leading zeros; empty when it is no number.
-std::string number_of(std::string name) {
-  if (!name.empty() && (name[0] == 'O' || name[0] == '%')) name.erase(0, 1);
-  if (name.empty() || name.find_first_not_of("0123456789") != std::string::npos) return {};
-  name.erase(0, std::min(name.find_first_not_of('0'), name.size() - 1));
-  return name;
-}
-
 bool matches(const std::filesystem::path& file, const std::string& name) {
   const std::string whole = capitals(file.filename().string());
   if (whole == name) return true;
-  const std::string stem = whole.substr(0, whole.find('.'));
-  const std::string number = number_of(name);
-  return stem == name || (!number.empty() && number_of(stem) == number);
+  if (const auto number = machine::number_in_name(name)) return machine::number_in_name(whole) == number;
+  return whole.substr(0, whole.find('.')) == name;
 }
 
 }  // namespace

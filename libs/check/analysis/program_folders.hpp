@@ -14,8 +14,8 @@ namespace trunnion::analysis {
 
 /// Finds the text a program calls: the file of that name, or of that name with an extension, in the first
 /// folder that has one; the program number may be written with or without O or %, and with fewer or more
-/// leading zeros. Letters in either case. Of several files in a folder the first in the order of names
-/// counts.
+/// leading zeros. O9990.9 of the NUM dialect is another program than O9990. Letters in either case. Of
+/// several files in a folder the first in the order of names counts.
 class ProgramFolders {
  public:
   explicit ProgramFolders(std::vector<std::string> folders) : folders_(std::move(folders)) {}

@@ -17,6 +17,7 @@
 #include "machine/parameter_constants.hpp"
 #include "machine_tests/servo_test_parts.hpp"
 #include "machine_tests/spindle_sync_samples.hpp"
+#include "machine_tests/spindle_sync_speeds.hpp"
 
 namespace trunnion::machine_tests {
 
@@ -126,19 +127,36 @@ std::string heading(const SpindleSyncSettings& settings, const machine::AxisInfo
       test.settling);
 }
 
+// Of those that were named, or else chosen. Throws std::runtime_error when one of them cannot be tested.
+std::vector<double> tested_speeds(const SpindleSyncSpeeds& possible, const std::vector<double>& named) {
+  if (named.empty()) return possible.choice();
+  for (const double speed : named)
+    if (const auto why = possible.refusal(speed); !why.empty()) throw std::runtime_error(why);
+  return named;
+}
+
+std::string speeds_note(const SpindleSyncSpeeds& possible, const std::vector<double>& speeds, bool chosen) {
+  std::string list;
+  for (const double speed : speeds) list += (list.empty() ? "" : ", ") + fmt::format("{:g}", speed);
+  return fmt::format("speeds {} 1/min, {} {}", list, chosen ? "chosen from" : "of", possible.text());
+}
+
 }  // namespace
 
 TestReport test_spindle_sync(ServoSession& session, const TestOptions& o) {
   const auto& test = o.spindle_sync;
   const auto spindles = machine::spindles(session.parameters());
-  const auto obstacle = spindle_sync_obstacle(spindles, session.client().newest(topics::feedback),
-                                              session.client().newest(topics::plc_outputs));
+  const auto feedback = session.client().newest(topics::feedback);
+  const auto obstacle =
+      spindle_sync_obstacle(spindles, feedback, session.client().newest(topics::plc_outputs));
   if (!obstacle.empty()) throw std::runtime_error(obstacle);
+  const SpindleSyncSpeeds possible(session.parameters(), spindles, feedback);
+  const auto speeds = tested_speeds(possible, test.speeds);
   auto r = report_of("spindle-sync", {});
   servo_analysis::Diagram diagram{"s since the coupling", "deg", {}};
   double longest = 0, window = 0;
-  for (std::size_t i = 0; i < test.speeds.size(); ++i) {
-    const double speed = test.speeds[i], next = i + 1 < test.speeds.size() ? test.speeds[i + 1] : 0;
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    const double speed = speeds[i], next = i + 1 < speeds.size() ? speeds[i + 1] : 0;
     const auto run = record_speed(session, test, speed, next);
     const auto& coupling = *run.coupling;
     if (std::max(coupling.master, coupling.slave) >= spindles.size())
@@ -150,13 +168,20 @@ TestReport test_spindle_sync(ServoSession& session, const TestOptions& o) {
     auto found = servo_analysis::spindle_sync_findings(speed, next, figures, settings);
     if (i == 0) {
       r.notes.push_back(heading(settings, master, slave, test));
+      r.notes.push_back(speeds_note(possible, speeds, test.speeds.empty()));
       r.notes.push_back(
           "limits: the window for the largest error, half of it for the drift and 1.5 for the growth of an "
           "oscillation (our choice), 180 deg for a change of the speed (alarm 184)");
-      r.details = {{"master", master.name},         {"slave", slave.name},
-                   {"reverse", settings.reverse},   {"angle_deg", settings.angle},
-                   {"window_deg", settings.window}, {"gain_per_min_per_rev", settings.gain},
-                   {"settling_s", test.settling},   {"record_s", test.record}};
+      r.details = {{"master", master.name},
+                   {"slave", slave.name},
+                   {"reverse", settings.reverse},
+                   {"angle_deg", settings.angle},
+                   {"window_deg", settings.window},
+                   {"gain_per_min_per_rev", settings.gain},
+                   {"settling_s", test.settling},
+                   {"record_s", test.record},
+                   {"lowest_per_min", possible.lowest()}};
+      if (std::isfinite(possible.highest())) r.details["highest_per_min"] = possible.highest();
     }
     r.figures.insert(r.figures.end(), found.figures.begin(), found.figures.end());
     r.notes.insert(r.notes.end(), found.notes.begin(), found.notes.end());

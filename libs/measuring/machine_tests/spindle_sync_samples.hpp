@@ -52,8 +52,8 @@ struct SpindleSyncOrders {
 };
 
 struct SpindleSyncOptions : SpindleSyncOrders {
-  std::vector<double> speeds{1000, 2000};  ///< 1/min, of the master, one after the other
-  double settling = 2, record = 5;         ///< s of machine time
+  std::vector<double> speeds;       ///< 1/min, of the master, one after the other; empty: by its gears
+  double settling = 2, record = 5;  ///< s of machine time
 };
 
 /// With the speed and, when it is above 0, the next one, 1/min. Dwells `settling` and `record` s, and

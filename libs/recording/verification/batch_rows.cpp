@@ -2,6 +2,8 @@
 #include "verification/batch_rows.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "bus/codec.hpp"
 
@@ -10,6 +12,11 @@ namespace {
 
 constexpr const char* path_letters[] = {"X", "Y", "Z", "A", "B", "C", "U", "V", "W"};
 constexpr std::size_t path_width = std::size(path_letters);
+constexpr std::size_t most_spindles = 8;  // of the feedback
+
+std::string name_of(const char* sequence, std::size_t index) {
+  return std::string(sequence) + "[" + std::to_string(index) + "]";
+}
 
 void flatten(const std::string& name, const bus::Json& value, std::vector<Field>& out) {
   if (value.is_object()) {
@@ -125,7 +132,7 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
   }
 }
 
-void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) const {
+void MessageRows::append_spindles(std::size_t row, std::vector<Field>& out) const {
   const auto coupled = [&](const auto& batch) {
     if (row < batch.turning_radius.size()) out.push_back({"turning_radius", batch.turning_radius[row]});
     if (row >= batch.spindle.size()) return;
@@ -133,32 +140,61 @@ void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) co
     out.push_back({"spindle", batch.spindle[row]});
     if (batch.follows_spindle) out.push_back({"follows_spindle", true});
   };
-  const auto indexed = [&](const char* name, const auto& values, std::size_t first, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-      out.push_back({std::string(name) + "[" + std::to_string(i) + "]", values[first + i]});
-  };
   if (kind_ == Kind::path) coupled(path_);
   if (kind_ == Kind::axis) coupled(axis_);
   if (kind_ != Kind::feedback) return;
   const auto& f = feedback_;
   const std::size_t spindles = f.spindle_speed.size();
   if ((row + 1) * spindles <= f.spindle_angle.size())
-    indexed("spindle_angle", f.spindle_angle, row * spindles, spindles);
+    for (std::size_t i = 0; i < spindles; ++i)
+      out.push_back({name_of("spindle_angle", i), f.spindle_angle[row * spindles + i]});
   if (row + 1 != rows_) return;
-  indexed("spindle_speed", f.spindle_speed, 0, spindles);
-  indexed("spindle_oriented", f.spindle_oriented, 0, f.spindle_oriented.size());
+  const auto taken =
+      std::count_if(f.applied.begin(), f.applied.end(), [&](const auto& a) { return a.tick == f.tick; });
+  const Moment moment{f.tick, static_cast<std::size_t>(taken)};
+  const auto now = [&](const char* name, std::size_t i, const bus::Json& value) {
+    out.push_back({name_of(name, i), value, true, moment});
+  };
+  for (std::size_t i = 0; i < spindles; ++i) now("spindle_speed", i, f.spindle_speed[i]);
+  for (std::size_t i = 0; i < f.spindle_oriented.size(); ++i)
+    now("spindle_oriented", i, f.spindle_oriented[i]);
   for (std::size_t i = 0; i < f.spindles.size(); ++i) {
-    const auto place = "[" + std::to_string(i) + "]";
-    out.push_back({"spindle_condition" + place, bus::to_string(f.spindles[i].condition)});
-    out.push_back({"spindle_reference" + place, f.spindles[i].reference});
-    out.push_back({"spindle_homed" + place, f.spindles[i].homed ? 1 : 0});
-    out.push_back({"spindle_gear" + place, f.spindles[i].gear});
-    out.push_back({"spindle_master" + place, f.spindles[i].master});
-    out.push_back({"spindle_synchronization_error" + place, f.spindles[i].synchronization_error});
-    out.push_back({"spindle_correction" + place, f.spindles[i].correction});
+    const auto& spindle = f.spindles[i];
+    now("spindle_condition", i, bus::to_string(spindle.condition));
+    now("spindle_reference", i, spindle.reference);
+    now("spindle_homed", i, spindle.homed ? 1 : 0);
+    now("spindle_gear", i, spindle.gear);
+    now("spindle_master", i, spindle.master);
+    now("spindle_synchronization_error", i, spindle.synchronization_error);
+    now("spindle_correction", i, spindle.correction);
+    now("spindle_torque", i, spindle.torque);
   }
-  indexed("velocity", f.velocity, 0, f.velocity.size());
-  indexed("torque", f.torque, 0, f.torque.size());
+}
+
+void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) const {
+  if (kind_ != Kind::feedback || row + 1 != rows_) return;
+  const auto& f = feedback_;
+  for (std::size_t i = 0; i < f.velocity.size(); ++i) out.push_back({name_of("velocity", i), f.velocity[i]});
+  for (std::size_t i = 0; i < f.torque.size(); ++i) out.push_back({name_of("torque", i), f.torque[i]});
+}
+
+std::string meaning_of(const std::string& field) {
+  static constexpr std::pair<const char*, const char*> meanings[] = {
+      {"spindle_angle", "angle, rev"},
+      {"spindle_speed", "measured speed, 1/min"},
+      {"spindle_oriented", "held at its orientation angle, 1 = yes"},
+      {"spindle_condition", "condition"},
+      {"spindle_reference", "commanded speed, 1/min"},
+      {"spindle_homed", "its index mark was passed, 1 = yes"},
+      {"spindle_gear", "gear, 0 = none"},
+      {"spindle_master", "its master, counted from 0, -1 = none"},
+      {"spindle_synchronization_error", "synchronization error, rev"},
+      {"spindle_correction", "correction, 1/min"},
+      {"spindle_torque", "torque, share of the most it has"}};
+  for (const auto& [name, meaning] : meanings)
+    for (std::size_t i = 0; i < most_spindles; ++i)
+      if (field == name_of(name, i)) return "spindle " + std::to_string(i + 1) + ": " + meaning;
+  return "";
 }
 
 }  // namespace trunnion::verification

@@ -2,6 +2,9 @@
 // Messages taken apart into named values: batches of the stream cycle by cycle, everything else whole.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,11 +14,21 @@
 
 namespace trunnion::verification {
 
+/// When a batch of feedback was written: the drive may have lived through further periods behind its last
+/// row, or have taken inputs.
+struct Moment {
+  std::uint64_t tick = 0;
+  std::size_t taken = 0;  ///< inputs at that tick
+  bool operator==(const Moment&) const = default;
+};
+
 struct Field {
   std::string name;
   bus::Json value;  ///< a number, a text or a boolean
   /// Batches cut otherwise do not have it at this cycle: the state of a stage is told after a batch only.
   bool at_batch_end = false;
+  /// Of what was so when the batch was written: values of different moments are not compared.
+  Moment moment{};
 };
 
 /// Where in the stream a batch belongs. The drive's feedback is one stream of all channels: channel and epoch
@@ -43,7 +56,9 @@ class MessageRows {
   std::size_t rows() const { return rows_; }
   /// The values of one row: setpoints are named by their axis, sequences by their index.
   void fields(std::size_t row, std::vector<Field>& out) const;
-  /// Appends what comparisons leave out: the spindles, and what a batch of feedback tells of its last row.
+  /// Appends what it has of spindles: angles cycle by cycle, the rest with the last row of the feedback.
+  void append_spindles(std::size_t row, std::vector<Field>& out) const;
+  /// Appends what no comparison has: speed and torque of the axes at the last row of the feedback.
   void append_uncompared(std::size_t row, std::vector<Field>& out) const;
 
  private:
@@ -56,5 +71,9 @@ class MessageRows {
   idl::stream::Feedback feedback_;
   bus::Json other_;
 };
+
+/// What a field is that append_spindles() has taken from the feedback, with the number of its spindle as the
+/// PLC counts (from 1) and its unit: "spindle 2: angle, rev". Empty for other fields.
+std::string meaning_of(const std::string& field);
 
 }  // namespace trunnion::verification

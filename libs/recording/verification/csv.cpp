@@ -34,6 +34,7 @@ void for_each_row(const StoredRecording& recording, const bus::TopicEntry& topic
     if (message.topic != &topic || !rows.load(topic, message.cdr)) continue;
     for (std::size_t i = 0; i < rows.rows(); ++i) {
       rows.fields(i, fields);
+      rows.append_spindles(i, fields);
       rows.append_uncompared(i, fields);
       visit(message, rows.span(), i, fields);
     }

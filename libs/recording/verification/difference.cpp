@@ -74,19 +74,23 @@ std::vector<Point> points_of(const Messages& messages, const bus::TopicEntry& to
 // Decodes a message once for all its rows.
 class RowCache {
  public:
+  explicit RowCache(bool spindles) : spindles_(spindles) {}
   const std::vector<Field>& fields(const Point& point) {
     if (point.message != message_) {
       good_ = rows_.load(*point.message->topic, point.message->cdr);
       message_ = point.message;
     }
-    if (good_)
-      rows_.fields(point.row, fields_);
-    else
+    if (!good_) {
       fields_ = {{"undecodable", true, false}};
+      return fields_;
+    }
+    rows_.fields(point.row, fields_);
+    if (spindles_) rows_.append_spindles(point.row, fields_);
     return fields_;
   }
 
  private:
+  const bool spindles_;
   MessageRows rows_;
   const StoredMessage* message_ = nullptr;
   bool good_ = false;
@@ -191,6 +195,7 @@ class Comparison {
     double off = 0;
     for (std::size_t i = 0; i < left.size(); ++i) {
       const auto* other = find(right, i, left[i].name);
+      if (other != nullptr && left[i].moment != other->moment) continue;
       if (other != nullptr ? !same(left[i].name, left[i].value, other->value, off) : !left[i].at_batch_end)
         differs(left[i].name, off);
     }
@@ -216,6 +221,7 @@ class Comparison {
     FirstDifference first;
     first.topic = topic.handle;
     first.field = candidate.field;
+    if (topic.handle == "feedback") first.meaning = meaning_of(candidate.field);
     first.cyclic = is_cyclic(topic);
     first.index = candidate.a.index;
     if (first.cyclic)
@@ -232,7 +238,7 @@ class Comparison {
 
   const Messages &a_, &b_;
   const DiffOptions& options_;
-  RowCache cache_a_, cache_b_;
+  RowCache cache_a_{options_.spindles}, cache_b_{options_.spindles};
   Difference out_;
 };
 
@@ -273,7 +279,8 @@ std::string text_of(const Difference& d, const std::string& a, const std::string
   const auto& f = *d.first;
   text += "first difference: " + f.topic + (f.series.empty() ? "" : ", " + f.series) +
           (f.cyclic ? ", cycle " : ", message ") + std::to_string(f.index) +
-          (f.field.empty() ? ", only in one of them" : ", " + f.field) + "\n";
+          (f.field.empty() ? ", only in one of them" : ", " + f.field) +
+          (f.meaning.empty() ? "" : " (" + f.meaning + ")") + "\n";
   text += fmt::format("    {:>12}  {:<26} {:<26}\n", f.cyclic ? "cycle" : "message", a, b);
   for (const auto& n : f.around) {
     if (n.index + shown_rows < f.index || n.index > f.index + shown_rows) continue;
@@ -306,6 +313,7 @@ bus::Json json_of(const Difference& d) {
                     {"series", d.first->series},
                     {d.first->cyclic ? "cycle" : "message", d.first->index},
                     {"field", d.first->field},
+                    {"meaning", d.first->meaning},
                     {"around", around}};
   }
   return out;

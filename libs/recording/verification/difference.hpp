@@ -23,6 +23,9 @@ struct DiffOptions {
   std::set<std::string> ignored;
   /// Compare only what both have: cycles, and as many messages as the shorter of two has.
   bool common = false;
+  /// Compare the spindles in the stream, too. Their angles count from the start of the drive: only what
+  /// follows from the same inputs has the same.
+  bool spindles = false;
   /// Rows before and after the first difference that are kept.
   int around = 3;
 };
@@ -50,6 +53,7 @@ struct Neighbour {
 
 struct FirstDifference {
   std::string topic, field, series;  ///< series: "channel 0", or the key of the messages
+  std::string meaning;               ///< of a field of a spindle: which one, what, unit; else empty
   bool cyclic = false;
   std::uint64_t index = 0;
   std::vector<Neighbour> around;

@@ -41,9 +41,11 @@ std::uint64_t index_of(const bus::Json& first) {
 
 std::string headline(const bus::Json& first) {
   const auto series = string_at(first, "series"), field = string_at(first, "field");
+  const auto meaning = string_at(first, "meaning");
   return string_at(first, "topic") + (series.empty() ? "" : ", " + series) +
          (is_cyclic(first) ? ", cycle " : ", message ") + std::to_string(index_of(first)) +
-         (field.empty() ? ", only in one of them" : ", " + field);
+         (field.empty() ? ", only in one of them" : ", " + field) +
+         (meaning.empty() ? "" : " (" + meaning + ")");
 }
 
 std::optional<double> value_of(const bus::Json& row, const char* side) {

@@ -10,6 +10,7 @@
 
 #include "bus/codec.hpp"
 #include "contracts/topics.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::verification {
 namespace {
@@ -84,6 +85,10 @@ class TickPlan {
         stamps_.insert(stamps_.end(), log.applied.begin(), log.applied.end());
       } else if (handle == "parameter_set" && bus::decode(message.cdr, set)) {
         revisions_[set.revision] = &message;
+      } else if (handle == "alarm" && drive_ && counts && bus::decode(message.cdr, alarm_)) {
+        if (alarm_.active && alarm_.number == alarm::plc_absent.number)
+          plan_.spindles_unknown = "when the drive missed the PLC (alarm " + std::to_string(alarm_.number) +
+                                   ") is not in the recording, and it brings spindles to rest then";
       }
       if (is_input(message)) inputs_[{message.topic, message.time}] = &message;
     }
@@ -116,8 +121,10 @@ class TickPlan {
       message = revisions_[stamp.identity];
     } else if (const auto found = inputs_.find({topic, stamp.identity}); found != inputs_.end()) {
       message = found->second;
-    } else if (stamp.input == Input::PLC_OUTPUTS && stamp_index + 1 < stamps_.size()) {
-      message = stand_in(*topic, stamp.identity, stamps_[stamp_index + 1].tick);
+    } else if (stamp.input == Input::PLC_OUTPUTS) {
+      if (stamp_index + 1 < stamps_.size())
+        message = stand_in(*topic, stamp.identity, stamps_[stamp_index + 1].tick);
+      watch_spindles(*topic, stamp, message);
     }
     if (message == nullptr && is_setpoint_after_seed(*topic, stamp.identity))
       throw MissingInput("it cannot be verified: the " + service_ + " executed a message of " +
@@ -148,6 +155,32 @@ class TickPlan {
     message.time = time;
     bus::encode(outputs, message.cdr);
     return &message;
+  }
+
+  // Outputs of the PLC that are not in the recording, and the ones that stand in for them: between outputs
+  // that order the same of the spindles they ordered that, too. Otherwise it is not known, and the spindles
+  // turn by it from then on.
+  void watch_spindles(const bus::TopicEntry& topic, const idl::stream::AppliedInput& lost,
+                      const StoredMessage* in_its_place) {
+    if (!plan_.spindles_unknown.empty()) return;
+    const auto after = inputs_.lower_bound({&topic, lost.identity});
+    const bool first = after == inputs_.begin() || std::prev(after)->first.first != &topic;
+    idl::plc::Outputs before, now;
+    const bool known = (first || bus::decode(std::prev(after)->second->cdr, before)) &&
+                       in_its_place != nullptr && bus::decode(in_its_place->cdr, now);
+    if (known && order_the_same(before, now)) return;
+    plan_.spindles_unknown =
+        "the recording lacks outputs of the PLC that the drive took at tick " + std::to_string(lost.tick) +
+        ", and those around them do not say what they ordered the spindles: record again";
+  }
+
+  // What spindles turn by.
+  static bool order_the_same(const idl::plc::Outputs& a, const idl::plc::Outputs& b) {
+    const auto orders = [](const idl::plc::Outputs& o) {
+      return std::tie(o.emergency_stop, o.axis_enable, o.spindle_speed, o.spindle_orient, o.spindle_angle,
+                      o.spindle_gear, o.spindle_couplings, o.surface_speeds);
+    };
+    return orders(a) == orders(b);
   }
 
   // What has no tick goes before the first that was written later.

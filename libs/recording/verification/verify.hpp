@@ -26,9 +26,10 @@ struct VerifyOptions {
 
 struct VerifyResult {
   Difference difference;
-  std::string parameters;  ///< which were used, in one line, when the machine's are or differ
-  std::string cut_off;     ///< where the recording ends too early; it was verified up to there
-  std::string problem;     ///< that kept the service from answering everything, or an alarm; one line
+  std::string parameters;    ///< which were used, in one line, when the machine's are or differ
+  std::string cut_off;       ///< where the recording ends too early; it was verified up to there
+  std::string not_compared;  ///< of the outputs, and why, in one line
+  std::string problem;       ///< that kept the service from answering everything, or an alarm; one line
   std::size_t inputs = 0, outputs = 0, unrecorded = 0;
   /// Of the gateway: requests over HTTP, lines of its journal that could not be sent again, and how often
   /// what it shows was compared.

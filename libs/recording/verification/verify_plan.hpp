@@ -29,6 +29,8 @@ struct VerifyPlan {
   std::set<std::string> topics;         ///< handles of the outputs that are compared
   /// Outputs that say when a service noticed something, which is not decided by its inputs alone.
   std::set<std::string> ignored;
+  /// Why the recording does not determine the spindles, in one line; empty: it does.
+  std::string spindles_unknown;
   std::uint64_t cycles = 0;  ///< of the stream, in `expected`
   double cycle_seconds = 0.001;
   bool virtual_time = true;

@@ -5,6 +5,7 @@
 #include "channel_core.hpp"
 #include "machine/parameter_constants.hpp"
 #include "modal_codes.hpp"
+#include "stream/drive_at_rest.hpp"
 #include "text/utf8.hpp"
 
 namespace trunnion::channel {
@@ -53,7 +54,7 @@ std::string ChannelCore::detail() const {
     return "the drive has stopped on the path: cycle start continues there";
   if (const auto tap = states_.in<Idle>() ? tap_words(path_of_drive(drive_position())) : std::string();
       !tap.empty())
-    return "a tap is in its hole: " + tap + "; G84.9 or G39+ removes it";
+    return std::string(stream::tap_in_hole_detail) + tap + "; G84.9 or G39+ removes it";
   return states_.published() == RunState::HELD ? interlock_.hold() : "";
 }
 

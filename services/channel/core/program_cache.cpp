@@ -3,7 +3,19 @@
 
 #include <algorithm>
 
+#include "machine/program_number.hpp"
+
 namespace trunnion::channel {
+namespace {
+
+bool is_called(std::string_view stored, std::string_view call) {
+  if (stored == call) return true;
+  return stored.starts_with(call) && stored[call.size()] == '.' &&
+         machine::number_in_name(stored) == machine::number_in_name(call);
+}
+
+}  // namespace
+
 language::TextSource& ProgramCache::open(const idl::program::ProgramEntry& program) {
   subprograms_.clear();
   main_ = std::make_unique<ProgramText>(program);
@@ -12,9 +24,7 @@ language::TextSource& ProgramCache::open(const idl::program::ProgramEntry& progr
 
 language::TextSource* ProgramCache::call(const idl::program::ProgramList& stored, std::string_view name) {
   for (const auto& entry : stored.programs) {
-    const bool matches = entry.name.rfind(name, 0) == 0 &&
-                         (entry.name.size() == name.size() || entry.name[name.size()] == '.');
-    if (!matches) continue;
+    if (!is_called(entry.name, name)) continue;
     subprograms_.push_back(std::make_unique<ProgramText>(entry));
     return subprograms_.back().get();
   }

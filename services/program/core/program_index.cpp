@@ -13,16 +13,6 @@ namespace {
 constexpr std::size_t piece = 65536;
 constexpr std::size_t head_length = 16;
 
-/// Digits from `at`, up to nine; nothing when there are none or more.
-std::optional<std::uint32_t> digits(const std::string& text, std::size_t at, std::size_t& end) {
-  end = at;
-  std::uint32_t number = 0;
-  while (end < text.size() && text[end] >= '0' && text[end] <= '9' && end - at < 10)
-    number = number * 10 + static_cast<std::uint32_t>(text[end++] - '0');
-  if (end == at || end - at > 9) return std::nullopt;
-  return number;
-}
-
 }  // namespace
 
 void TextScan::add(std::span<const std::uint8_t> bytes) {
@@ -46,11 +36,7 @@ void TextScan::add(std::span<const std::uint8_t> bytes) {
   }
 }
 
-std::optional<std::uint32_t> TextScan::number() const {
-  if (head_.empty() || (head_[0] != '%' && head_[0] != 'O' && head_[0] != 'o')) return std::nullopt;
-  std::size_t end = 0;
-  return digits(head_, 1, end);
-}
+std::optional<machine::ProgramNumber> TextScan::number() const { return machine::number_in_head(head_); }
 
 bool valid_name(const std::string& name) {
   if (name.empty() || name.size() > 64 || name[0] == '.') return false;
@@ -58,14 +44,6 @@ bool valid_name(const std::string& name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
            c == '_' || c == '-';
   });
-}
-
-std::optional<std::uint32_t> number_in_name(const std::string& name) {
-  const bool letter = !name.empty() && (name[0] == 'O' || name[0] == 'o' || name[0] == '%');
-  std::size_t end = 0;
-  const auto number = digits(name, letter ? 1 : 0, end);
-  if (end != name.size() && (end >= name.size() || name[end] != '.')) return std::nullopt;
-  return number;
 }
 
 TextScan scan(Files& files, const std::string& name) {
@@ -81,10 +59,10 @@ TextScan scan(Files& files, const std::string& name) {
 const IndexedProgram* resolve(const Index& index, const std::string& call) {
   for (const auto* extension : {"", ".nc", ".NC", ".ngc", ".txt"})
     if (const auto found = index.find(call + extension); found != index.end()) return &found->second;
-  const auto number = number_in_name(call);
+  const auto number = machine::number_in_name(call);
   if (!number) return nullptr;
   for (const auto& [name, program] : index)
-    if (number_in_name(name) == number) return &program;
+    if (machine::number_in_name(name) == number) return &program;
   for (const auto& [name, program] : index)
     if (program.number == number) return &program;
   return nullptr;

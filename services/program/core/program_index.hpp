@@ -8,6 +8,7 @@
 
 #include "contracts/types.hpp"
 #include "files.hpp"
+#include "machine/program_number.hpp"
 
 namespace trunnion::program {
 
@@ -20,7 +21,7 @@ class TextScan {
   /// Lines, which end with CR LF, LF or CR; a last one without an end included.
   std::uint32_t lines() const { return ends_ + (last_ != '\n' && last_ != '\r' ? 1 : 0); }
   /// The number after % or O at the head of the first line that is not empty.
-  std::optional<std::uint32_t> number() const;
+  std::optional<machine::ProgramNumber> number() const;
 
  private:
   std::uint64_t size_ = 0;
@@ -31,15 +32,12 @@ class TextScan {
 
 struct IndexedProgram {
   idl::program::ProgramEntry entry;
-  std::optional<std::uint32_t> number;
+  std::optional<machine::ProgramNumber> number;
 };
 
 /// Letters, digits, dot, underscore and minus, 1 to 64, not beginning with a dot: no path leads out of the
 /// store.
 bool valid_name(const std::string& name);
-
-/// The number of a name or a program call: O1234, %1234, 1234, each with or without an extension.
-std::optional<std::uint32_t> number_in_name(const std::string& name);
 
 /// Reads the whole file in pieces of 64 KiB. Throws StorageError.
 TextScan scan(Files& files, const std::string& name);
@@ -48,8 +46,8 @@ using Index = std::map<std::string, IndexedProgram>;
 
 /// The program meant by `call`, or null. In this order: the name itself; the name with .nc, .NC, .ngc, .txt
 /// behind it; when it is a program number, the first program in the order of names whose name is that number
-/// (O1234, %1234, 1234, with an extension or leading zeros); then the first whose text begins with that
-/// number.
+/// with the same index of the NUM dialect (O1234, %1234, 1234, with an extension or leading zeros; O1234.9 is
+/// another); then the first whose text begins with that number.
 const IndexedProgram* resolve(const Index& index, const std::string& call);
 
 }  // namespace trunnion::program

@@ -35,7 +35,7 @@ TEST(TextScan, FindsTheNumberInTheFirstLineBehindTheTapesBeginning) {
   for (const std::string_view text : {"%\nO100\n", "%\r\nO100\r\n", "%\rO100\r", "\r\r%\r\rO100 G0\r"}) {
     TextScan scan;
     scan.add(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
-    EXPECT_EQ(scan.number(), 100u) << text;
+    EXPECT_EQ(scan.number(), (machine::ProgramNumber{100, 0})) << text;
   }
 }
 
@@ -251,6 +251,26 @@ TEST(ProgramStore, ResolvesNameThenExtensionThenNumberThenTextThenCycles) {
   EXPECT_EQ(store.apply(read, 0).data.size(), 1u);
   EXPECT_FALSE(store.apply(request(Operation::RESOLVE, "O9"), 0).accepted);
   EXPECT_FALSE(store.apply(request(Operation::RESOLVE, "../etc"), 0).accepted);
+}
+
+// %9990.9 of the NUM dialect, which homes one axis, is another program than %9990.
+TEST(ProgramStore, ResolvesANumberWithAnIndexToThatProgramAlone) {
+  MemoryFiles files, state, cycles;
+  files.texts = {{"O9990.9", "x"}, {"O99901", "x"}, {"O12.nc", "x"}, {"first", "%7.1 (group 1)\nG0"}};
+  ProgramStore store(files, state);
+  store.set_cycles(cycles);
+  const auto name = [&](const char* call) {
+    return store.apply(request(Operation::RESOLVE, call), 0).entry.name;
+  };
+  EXPECT_EQ(name("O9990.9"), "O9990.9");
+  EXPECT_EQ(name("%9990.9"), "O9990.9");
+  EXPECT_EQ(name("O9990"), "") << "it is not stored";
+  EXPECT_EQ(name("O12"), "O12.nc");
+  EXPECT_EQ(name("O0012.3"), "") << "it is not stored";
+  EXPECT_EQ(name("O7.1"), "first");
+  EXPECT_EQ(name("O7"), "");
+  upload(store, "9990.nc", "M30\n");
+  EXPECT_EQ(name("O9990"), "9990.nc");
 }
 
 TEST(ProgramStore, WhatAChannelExecutesIsNeitherReplacedNorRemovedNorRenamedUntilItHasEnded) {

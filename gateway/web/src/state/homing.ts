@@ -21,13 +21,11 @@ export interface HomingWay {
 export const homingOrder = (letters: string): string[] => [..."XYZUVWABC"].filter((letter) => letters.includes(letter));
 
 /**
- * Whether a call of O9990 runs it. The channel takes the first program of the list that has this name before a point,
- * so O9990.nc is O9990, and O9990.9, another program of NUM, would be taken for it.
+ * Whether a call of O9990 runs it. The channel takes the program of this name with or without an extension: O9990.nc is
+ * O9990. A point and one digit are no extension: O9990.9 is another program of NUM.
  */
-export function callsHomingProgram(programs: readonly { name: string }[]): boolean {
-  const found = programs.find(({ name }) => name === homingProgram || name.startsWith(`${homingProgram}.`));
-  return found !== undefined && !/^\.\d/.test(found.name.slice(homingProgram.length));
-}
+export const callsHomingProgram = (programs: readonly { name: string }[]): boolean =>
+  programs.some(({ name }) => name === homingProgram || (name.startsWith(`${homingProgram}.`) && !/^\.[1-9](\.|$)/.test(name.slice(homingProgram.length))));
 
 /** For the operator, before anything moves: `O9990`, or `X Y Z`. */
 export const homingBy = (way: HomingWay, letters: string): string => (way.program ? homingProgram : homingOrder(letters).join(" "));

@@ -269,6 +269,10 @@ TEST(ProgramFolders, FindsProgramsByNumberInAnyForm) {
   for (const char* name : {"O0012", "O0013", "O0014", "USERDEF.CYC", "O12345"}) {
     EXPECT_NE(programs.find(name), nullptr) << name;
   }
+  folder.write("O9990.9", "g");
+  folder.write("O7.1.nc", "h");
+  for (const char* name : {"O9990.9", "O0007.1"}) EXPECT_NE(programs.find(name), nullptr) << name;
+  for (const char* name : {"O9990", "O0007", "O0012.1"}) EXPECT_EQ(programs.find(name), nullptr) << name;
   for (const char* name : {"O0001", "O1234", "O0002"}) EXPECT_EQ(programs.find(name), nullptr) << name;
   EXPECT_EQ(programs.find("O0012"), programs.find("O0012"));
   EXPECT_THAT(programs.path("O0012"), HasSubstr("o12.nc"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verification/difference.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -168,6 +169,91 @@ TEST(Difference, StatesAreComparedByKeyAndRepetitionsDoNotCount) {
   const auto d = difference(a.messages, b.messages, {});
   EXPECT_EQ(topic(d, "auxiliary_done").only_b, 1u);
   EXPECT_TRUE(d.first->field.empty());
+}
+
+// Two spindles: the first turns a quarter of a revolution in each cycle, the second half of one the other way
+// round. A quarter of a revolution in 1 ms is 15000 1/min.
+void turn_spindles(StoredRecording& recording) {
+  for (auto& message : recording.messages) {
+    idl::stream::Feedback batch;
+    if (message.topic->handle != "feedback" || !bus::decode(message.cdr, batch)) continue;
+    for (std::uint64_t c = batch.first; c < batch.first + batch.count; ++c) {
+      batch.spindle_angle.push_back(static_cast<double>(c) * 0.25);
+      batch.spindle_angle.push_back(static_cast<double>(c) * -0.5);
+    }
+    batch.spindle_speed = {15000, -30000};
+    batch.spindle_oriented = {0, 0};
+    batch.spindles.resize(2);
+    bus::encode(batch, message.cdr);
+  }
+}
+
+// The batch of feedback that has `cycle`.
+template <class Change>
+void change_feedback(StoredRecording& recording, std::uint64_t cycle, Change to) {
+  for (auto& message : recording.messages) {
+    idl::stream::Feedback batch;
+    if (message.topic->handle != "feedback" || !bus::decode(message.cdr, batch)) continue;
+    if (cycle < batch.first || cycle >= batch.first + batch.count) continue;
+    to(batch);
+    bus::encode(batch, message.cdr);
+  }
+}
+
+DiffOptions with_spindles() {
+  DiffOptions options;
+  options.spindles = true;
+  return options;
+}
+
+TEST(Difference, OneBitOfTheAngleOfASpindleIsFoundWithItsCycleAndBothValues) {
+  auto a = sample_recording();
+  turn_spindles(a);
+  EXPECT_TRUE(difference(a.messages, a.messages, with_spindles()).equal());
+  auto b = a;
+  change_feedback(b, 413, [](idl::stream::Feedback& batch) {
+    auto& angle = batch.spindle_angle[(413 - batch.first) * 2 + 1];
+    angle = std::nextafter(angle, 0);
+  });
+  const auto d = difference(a.messages, b.messages, with_spindles());
+  ASSERT_FALSE(d.equal());
+  EXPECT_EQ(d.first->topic, "feedback");
+  EXPECT_EQ(d.first->field, "spindle_angle[1]");
+  EXPECT_EQ(d.first->index, 413u);
+  EXPECT_EQ(topic(d, "feedback").fields.size(), 1u);
+  const auto text = text_of(d, "recorded", "written now");
+  EXPECT_THAT(text, testing::HasSubstr(
+                        "first difference: feedback, cycle 413, spindle_angle[1] (spindle 2: angle, rev)\n"));
+  // 413 times -0.5 is -206.5, and a bit there is 2^-45 rev: 2.8e-14.
+  EXPECT_THAT(text, testing::ContainsRegex(">          413  -206.5 +-206.49999999999997 "));
+  EXPECT_EQ(json_of(d)["first"]["meaning"], "spindle 2: angle, rev");
+  EXPECT_TRUE(difference(a.messages, b.messages, {}).equal()) << "of two runs the angles are different";
+}
+
+// Eight cycles in each batch: the one with cycle 413 ends with cycle 415, at tick 416.
+TEST(Difference, TheStateOfASpindleIsComparedWhereBothHaveItOfTheSameMoment) {
+  auto a = sample_recording();
+  turn_spindles(a);
+  auto b = a;
+  const auto alter = [&](auto to) { change_feedback(b, 413, to); };
+  alter([](auto& batch) {
+    batch.spindles[0].condition = idl::stream::SpindleCondition::SPINDLE_AT_SPEED;
+    batch.spindles[0].reference = 15000;
+  });
+  const auto d = difference(a.messages, b.messages, with_spindles());
+  ASSERT_FALSE(d.equal());
+  EXPECT_EQ(d.first->index, 415u) << "it is told with the last row";
+  EXPECT_EQ(d.first->field, "spindle_condition[0]");
+  EXPECT_EQ(d.first->meaning, "spindle 1: condition");
+  EXPECT_EQ(topic(d, "feedback").fields.size(), 2u);
+  // The drive has lived through periods behind the row, or taken inputs, before it wrote the batch.
+  alter([](auto& batch) { batch.tick += 5; });
+  EXPECT_TRUE(difference(a.messages, b.messages, with_spindles()).equal());
+  alter([](auto& batch) { batch.tick -= 5; });
+  alter([](auto& batch) { batch.applied = {{idl::stream::Input::PLC_OUTPUTS, batch.tick, 7}}; });
+  EXPECT_TRUE(difference(a.messages, b.messages, with_spindles()).equal());
+  alter([](auto& batch) { batch.applied = {{idl::stream::Input::PLC_OUTPUTS, batch.tick - 8, 7}}; });
+  EXPECT_FALSE(difference(a.messages, b.messages, with_spindles()).equal()) << "taken before the rows";
 }
 
 TEST(Difference, NamesATopicThatDoesNotExist) {

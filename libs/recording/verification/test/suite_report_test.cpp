@@ -43,6 +43,13 @@ TEST(SuiteReport, AProblemDoesNotHideTheFirstDifference) {
   EXPECT_THAT(result.problem, HasSubstr("the network was interrupted; first difference: plc_state"));
 }
 
+TEST(SuiteReport, SaysWhichSpindleTheFirstDifferenceIsOf) {
+  const auto result = judged(1, R"({"problem": "", "first": {"topic": "feedback", "series": "", "cycle": 413,
+    "field": "spindle_angle[1]", "meaning": "spindle 2: angle, rev", "around": []}})");
+  EXPECT_EQ(result.problem,
+            "first difference: feedback, cycle 413, spindle_angle[1] (spindle 2: angle, rev)");
+}
+
 constexpr const char* idle = R"({"equal": false, "skipped": "it had nothing to do"})";
 
 TEST(SuiteReport, WhatARecordingHasNothingForIsSkippedWithItsReasonAndIsNoFailure) {

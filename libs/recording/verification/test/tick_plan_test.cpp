@@ -118,6 +118,52 @@ TEST(TickPlan, OutputsOfThePlcThatWereOverwrittenBeforeTheRecordingAreStoodInFor
   ASSERT_TRUE(bus::decode(plan.steps[2].message->cdr, given));
   EXPECT_EQ(given.run_until_tick, 40u);
   EXPECT_EQ(plan.steps[2].needs.size(), 2u) << "tick 12, and the stand-in was taken";
+  EXPECT_EQ(plan.spindles_unknown, "") << "the spindles were ordered nothing before and behind it";
+}
+
+// The drive took outputs of times 10, 20 and 30 at ticks 0, 12 and 24; those of time 20 were overwritten
+// before they were recorded.
+VerifyPlan plan_without_the_second_outputs(double speed_before, double speed_behind) {
+  using idl::stream::Input;
+  StoredRecording recording;
+  auto end = feedback(0, 8);
+  end.tick = 40;
+  end.applied = {{Input::PARAMETER_SET, 0, 1},
+                 {Input::PLC_OUTPUTS, 0, 10},
+                 {Input::PLC_OUTPUTS, 12, 20},
+                 {Input::PLC_OUTPUTS, 24, 30}};
+  idl::plc::Outputs before, behind;
+  before.spindle_speed = {speed_before}, behind.spindle_speed = {speed_behind};
+  behind.run_until_tick = 40, behind.feed_hold = true;
+  recording.messages = {parameters(1, 1), stored(topics::plc_outputs, before, 10),
+                        stored(topics::plc_outputs, behind, 30), stored(topics::feedback, end, 35)};
+  auto plan = plan_verification(recording, "drive", 0);
+  plan.steps.clear();  // they point into the recording
+  return plan;
+}
+
+TEST(TickPlan, SaysThatLostOutputsOfThePlcLeaveTheSpindlesOpenWhenTheirOrdersHaveChanged) {
+  EXPECT_EQ(plan_without_the_second_outputs(1000, 1000).spindles_unknown, "");
+  EXPECT_EQ(plan_without_the_second_outputs(1000, 0).spindles_unknown,
+            "the recording lacks outputs of the PLC that the drive took at tick 12, and those around them do "
+            "not say what they ordered the spindles: record again");
+}
+
+TEST(TickPlan, SaysThatTheSpindlesAreOpenWhenTheDriveHasMissedThePlc) {
+  StoredRecording recording;
+  auto start = feedback(0, 8);
+  start.applied = {{idl::stream::Input::PARAMETER_SET, 0, 1}};
+  idl::service::Alarm missed;
+  missed.number = 133, missed.active = true, missed.source = "drive";
+  recording.messages = {parameters(1, 1), stored(topics::alarm, missed, 4),
+                        stored(topics::feedback, start, 5)};
+  EXPECT_EQ(
+      plan_verification(recording, "drive", 0).spindles_unknown,
+      "when the drive missed the PLC (alarm 133) is not in the recording, and it brings spindles to rest "
+      "then");
+  missed.number = 114;
+  recording.messages[1] = stored(topics::alarm, missed, 4);
+  EXPECT_EQ(plan_verification(recording, "drive", 0).spindles_unknown, "");
 }
 
 TEST(TickPlan, FeedbackThatBringsNoNewTickIsFedToThePlcWhereItWasWritten) {
