@@ -74,6 +74,8 @@ grep -q '^spindle S2 follows S1 the other way round' "$work/table" || fail "$(ca
 # By hand as a program orders it: both have no M4, so they turn alike.
 by_hand couple S2 S1 30 || fail "couple: $(cat "$work/error")"
 grep -Eq '^S2 .* synchronized, .* follows S1, error -?0\.[0-9]{3} deg$' "$work/said" || fail "$(cat "$work/said")"
+# In virtual time it is still on the way within the window: it comes to rest in a dwell.
+"$trunnion" mdi 'G4 X2' --domain "$domain" > "$work/said"
 "$trunnion" channel status --json --domain "$domain" > "$work/json"
 "$python" - "$work/json" <<'END_PYTHON' || fail "$(cat "$work/json")"
 import json, sys
