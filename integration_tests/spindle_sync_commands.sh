@@ -87,6 +87,7 @@ grep -q '"master":""' "$work/said" || fail "$(cat "$work/said")"
 refused 'the machine has no spindle S3: it has S1, S2' couple S2 S3
 # The PLC of the lathe couples S2 only.
 refused 'alarm 132: ' couple S1 S2
+reset_alarms
 
 # While the drive is replaced nothing would hold the spindles together.
 "$trunnion" mdi 'M81 R30' --domain "$domain" > "$work/said"
