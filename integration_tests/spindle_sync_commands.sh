@@ -89,6 +89,7 @@ grep -q '"master":""' "$work/said" || fail "$(cat "$work/said")"
 refused 'the machine has no spindle S3: it has S1, S2' couple S2 S3
 # The PLC of the lathe couples S2 only.
 refused 'alarm 132: ' couple S1 S2
+reset_alarms
 
 # In gear 1, which has 0 .. 1000 1/min, half of the highest and the highest are tested, and nothing else is begun.
 "$trunnion" channel mode auto --domain "$domain"
