@@ -7,6 +7,8 @@ PRESET ?= release
 BUILD := build/$(PRESET)
 TRUNNION := $(BUILD)/bin/trunnion
 JOBS := $(shell nproc)
+# Tests that start a cluster wait for more than a third of their time.
+TESTS_AT_ONCE := $(shell expr $$(nproc) + 1)
 FUZZ_SECONDS ?= 6
 
 # Ninja shows how many of how many steps are done, and for how long it has been at it.
@@ -20,7 +22,7 @@ run: product
 
 # Tests in real time come last, one at a time.
 test: build
-	ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS) -LE realtime
+	ctest --test-dir $(BUILD) --output-on-failure -j $(TESTS_AT_ONCE) -LE realtime
 	ctest --test-dir $(BUILD) --output-on-failure -L realtime
 
 # What is remembered as good with the same content (tools/memory.py) is not done again.

@@ -15,7 +15,7 @@ constexpr double um = 1e-3;
 // Z of the start point in the machine: G54 has Z -380, and a pass begins at Z100.
 constexpr double top = -280;
 constexpr double lead = 2;  // mm in a revolution
-// Depth in which the tool is on the pitch line, mm of the 40. At S 1500 run-in and run-out are below 1.5 mm.
+// Depth in which the tool is on the pitch line, mm of the 40. At S 1500 run-in and run-out are below 3 mm.
 constexpr double steady_from = 10, steady_to = 36;
 
 struct Row {

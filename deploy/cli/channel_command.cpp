@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// channel: an operator's command to a channel, and its status. The words of the commands are the table's
-// (idl/operator_commands.yaml).
+// channel: an operator's command to a channel, its status, and spindles that follow each other. The words of
+// the other commands are the table's (idl/operator_commands.yaml).
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -18,8 +18,10 @@
 #include "cluster/stored_program.hpp"
 #include "commands.hpp"
 #include "commands/channel_request.hpp"
+#include "couple_command.hpp"
 #include "interrupt_watch.hpp"
 #include "new_alarms.hpp"
+#include "spindle_orders.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -93,6 +95,8 @@ int run_command(const Common& common, const ChannelOptions& options) {
     return show_channel_status(common, options.channel, options.watch);
   if (options.word == status_word) throw std::runtime_error("status has no arguments: give --channel N");
   if (options.watch) throw std::runtime_error("--watch is an option of status");
+  if (options.word == couple_word || options.word == uncouple_word)
+    return couple_spindles(common, options.word, options.arguments, options.channel, options.take_over);
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
   auto request = request_of(client, options);
@@ -117,8 +121,10 @@ int run_command(const Common& common, const ChannelOptions& options) {
 
 std::string list_of_commands() {
   std::string text =
-      "status: position, mode, state, program and line, feed, spindle, tool and alarms, once or with "
-      "--watch\n"
+      "status: position, mode, state, program and line, feed, tool, alarms, and the spindles of the machine, "
+      "once or with --watch\n"
+      "couple SLAVE MASTER [ANGLE], uncouple SLAVE: a spindle follows another one, ANGLE deg added, or no "
+      "longer (docs/spindles.md)\n"
       "COMMANDS, described in docs/operator-commands.md:";
   for (const auto& row : commands::channel_commands()) {
     const auto usage = commands::usage(row);
@@ -134,10 +140,12 @@ void add_channel_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<ChannelOptions>();
   auto* command = add_command(app, common, "channel", "Operate a channel, or show its status",
                               [&common, options] { return run_command(common, *options); });
-  std::vector<std::string> words{status_word};
+  std::vector<std::string> words{status_word, couple_word, uncouple_word};
   for (const auto& row : commands::channel_commands()) words.emplace_back(row.word);
   command->add_option("what", options->word, "What to do")->required()->check(CLI::IsMember(words));
-  command->add_option("arguments", options->arguments, "Program, mode, on or off, axes, levels, numbers")
+  command
+      ->add_option("arguments", options->arguments,
+                   "Program, mode, on or off, axes, levels, spindles, numbers")
       ->expected(0, 3);
   command->add_option("--channel", options->channel, "Channel number");
   command->add_option("--from-line", options->from_line,

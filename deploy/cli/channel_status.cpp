@@ -21,19 +21,22 @@
 #include "interrupt_watch.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
+#include "spindle_status.hpp"
 #include "standard_output.hpp"
 
 namespace trunnion::cli {
 namespace {
 
-constexpr double longest_silence = 1;  // s: a channel publishes its state every 0.05 s
+// s: a channel publishes its state every 0.05 s, the drive at least every 0.1 s
+constexpr double longest_silence = 1;
 constexpr std::chrono::milliseconds period(100);
 
 struct Status {
   idl::channel::ChannelState state;
-  std::vector<std::string> units;  // of each axis
-  std::size_t alarms = 0;          // active on the machine
-  bool connected = true;           // the state is the one of now
+  std::vector<std::string> units;       // of each axis
+  std::size_t alarms = 0;               // active on the machine
+  bool connected = true;                // the state is the one of now
+  std::vector<SpindleStatus> spindles;  // empty while the drive is silent
 };
 
 class StatusReader {
@@ -41,10 +44,14 @@ class StatusReader {
   StatusReader(cluster::Client& client, std::uint16_t channel)
       : alarms_(client),
         states_(client.reader_from_now(topics::channel_state)),
+        feedbacks_(client.reader_from_now(topics::feedback)),
         parameters_(machine::parameters_of(client.newest(topics::parameter_set))),
         state_(client.newest(topics::channel_state, channel)),
         received_(service::monotonic_seconds()) {
     alarms_.wait_for_all();
+    const double until = service::monotonic_seconds() + longest_silence;
+    while (!take_feedback() && service::monotonic_seconds() < until)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 
   Status read() {
@@ -53,8 +60,11 @@ class StatusReader {
       state_ = state;
       received_ = service::monotonic_seconds();
     }
+    take_feedback();
     Status status{
-        state_, {}, alarms_.take().size(), service::monotonic_seconds() - received_ < longest_silence};
+        state_, {}, alarms_.take().size(), service::monotonic_seconds() - received_ < longest_silence, {}};
+    if (service::monotonic_seconds() - heard_ < longest_silence)
+      status.spindles = spindle_status(machine::spindles(parameters_), feedback_);
     for (const auto axis : state_.axes)
       status.units.emplace_back(
           parameters_.integer(parameter::axis_type, axis) == machine::axis_type_linear ? "mm" : "deg");
@@ -62,11 +72,20 @@ class StatusReader {
   }
 
  private:
+  bool take_feedback() {
+    if (!feedbacks_.take_newest(feedback_)) return false;
+    heard_ = service::monotonic_seconds();
+    return true;
+  }
+
   ActiveAlarms alarms_;
   bus::Reader<idl::channel::ChannelState> states_;
+  bus::Reader<idl::stream::Feedback> feedbacks_;
   machine::Parameters parameters_;
   idl::channel::ChannelState state_;
   double received_ = 0;  // s
+  idl::stream::Feedback feedback_;
+  double heard_ = -longest_silence;  // s, of the drive
 };
 
 std::size_t axis_count(const Status& status) {
@@ -77,6 +96,8 @@ std::size_t axis_count(const Status& status) {
 
 bus::Json json_of(const Status& status) {
   const auto& state = status.state;
+  auto spindles = bus::Json::array();
+  for (const auto& spindle : status.spindles) spindles.push_back(spindle.json());
   auto axes = bus::Json::array();
   for (std::size_t i = 0; i < axis_count(status); ++i)
     axes.push_back({{"axis", std::string(1, state.letters[i])},
@@ -100,6 +121,7 @@ bus::Json json_of(const Status& status) {
           {"rapid_override", state.rapid_override},
           {"spindle_programmed_per_min", state.spindle_programmed},
           {"spindle_override", state.spindle_override},
+          {"spindles", spindles},
           {"tool", state.tool},
           {"length_offset", state.length_offset},
           {"tool_length_mm", state.tool_length},
@@ -126,6 +148,7 @@ std::vector<std::string> lines_of(const Status& status) {
                               percent * state.rapid_override));
   lines.push_back(fmt::format("spindle  S {:.0f} 1/min, override {:.0f} %", state.spindle_programmed,
                               percent * state.spindle_override));
+  for (const auto& spindle : status.spindles) lines.push_back(spindle.line());
   lines.push_back(
       fmt::format("tool     T{}, H{}, length {:.4f} mm", state.tool, state.length_offset, state.tool_length));
   lines.push_back(fmt::format("alarms   {}", status.alarms));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// channel status: position, mode, program, feed, spindle, tool and alarms of a channel.
+// channel status: position, mode, program, feed, tool and alarms of a channel, and the spindles of the
+// machine.
 #pragma once
 
 #include "commands.hpp"

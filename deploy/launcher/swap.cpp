@@ -101,6 +101,8 @@ void Swap::read(double now) {
     executed_ = std::max(executed_, feedback.first + feedback.count);
     if (comparison_ == Comparison::ticks && feedback.tick > tick_) moved_ = now;
     tick_ = std::max(tick_, feedback.tick);
+    masters_.clear();
+    for (const auto& spindle : feedback.spindles) masters_.push_back(spindle.master);
   }
   idl::channel::ChannelState state;
   while (channels_.take(state)) run_states_[state.channel] = state.state;
@@ -122,6 +124,13 @@ std::string Swap::why_not_at_rest() const {
         state != RunState::IDLE && state != RunState::HELD)
       return "The " + service + " can be swapped at rest only: channel " + std::to_string(channel) + " is " +
              bus::to_string(state);
+  if (service != machine::service::drive.name) return "";
+  // While no drive is there, both spindles turn on by themselves, and a part may be in both.
+  for (std::size_t i = 0; i < masters_.size(); ++i)
+    if (masters_[i] >= 0)
+      return "The drive can be swapped only while no spindle follows another one: spindle " +
+             std::to_string(i + 1) + " follows spindle " + std::to_string(masters_[i] + 1) +
+             "; end the synchronization first";
   return "";
 }
 

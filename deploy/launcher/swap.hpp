@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "alarms_of_services.hpp"
 #include "bus/bus.hpp"
@@ -65,6 +66,7 @@ class Swap {
   AlarmsOfServices alarms_;
   bus::Writer<idl::service::Promotion> promotions_;
   std::map<std::uint16_t, idl::channel::RunState> run_states_;
+  std::vector<int> masters_;  ///< of each spindle; -1 = it follows none
   stream::BatchComparison batches_;
   std::uint64_t executed_ = 0, tick_ = 0, promoted_cycle_ = 0;
   double began_ = 0, moved_ = 0;

@@ -209,7 +209,10 @@ Json StateDocument::spindles() const {
          {"angle",
           rounded(std::fmod(std::round((spindle.angle - std::floor(spindle.angle)) * 36000), 36000) / 100)},
          {"gear", spindle.gear},
-         {"master", spindle.master}});
+         {"reference", rounded(std::round(spindle.reference * 100) / 100)},
+         {"master", spindle.master},
+         {"synchronization_error", rounded(std::round(spindle.synchronization_error * 360000) / 1000)},
+         {"correction", rounded(std::round(spindle.correction * 100) / 100)}});
   return json;
 }
 

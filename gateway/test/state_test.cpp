@@ -253,6 +253,30 @@ TEST(StateDocument, ColumnsOfTheFeedbackGoToTheLogicalAxesOfTheDrive) {
   EXPECT_EQ(json["trace"]["first"], 50) << "and the last trace stays until there is a new one";
 }
 
+// -0.00125 rev are -0.45 deg.
+TEST(StateDocument, ASpindleThatFollowsIsShownWithMasterErrorAndCorrection) {
+  StateDocument document;
+  auto batch = feedback();
+  batch.spindles.resize(2);
+  batch.spindles[0].master = -1;
+  auto& slave = batch.spindles[1];
+  slave.condition = idl::stream::SpindleCondition::SPINDLE_SYNCHRONIZED;
+  slave.reference = -999.004;
+  slave.master = 0;
+  slave.synchronization_error = -0.00125;
+  slave.correction = 1.256;
+  document.apply(batch);
+  const auto spindles = document.document(0)["drive"]["spindles"];
+  ASSERT_EQ(spindles.size(), 2u);
+  EXPECT_EQ(spindles[0]["master"], -1);
+  EXPECT_EQ(spindles[0]["synchronization_error"], 0.0);
+  EXPECT_EQ(spindles[1]["condition"], "SPINDLE_SYNCHRONIZED");
+  EXPECT_EQ(spindles[1]["reference"], -999.0);
+  EXPECT_EQ(spindles[1]["master"], 0);
+  EXPECT_EQ(spindles[1]["synchronization_error"], -0.45);
+  EXPECT_EQ(spindles[1]["correction"], 1.26);
+}
+
 TEST(StateDocument, BeforeTheFirstCycleAxesAreShownWhereTheyStand) {
   StateDocument document;
   document.set_drive_axes({0, 5});

@@ -46,6 +46,26 @@ const offScreen = (page) =>
       .filter(([, box]) => box.left < 0 || box.top < 0 || box.right > innerWidth || box.bottom > innerHeight)
       .map(([name]) => name));
 
+/** Two spindles, and the second one begins to follow the first: no key moves, and both lines are whole. */
+async function twoSpindles(page, stream, where) {
+  const turns = { condition: "SPINDLE_ACCELERATING", homed: true, angle: 359.99, gear: 2, reference: -4000, master: -1, synchronization_error: 0, correction: 0 };
+  const follows = { ...turns, condition: "SPINDLE_SYNCHRONIZING", master: 0, synchronization_error: -179.999, correction: -1.5 };
+  const keys = () => page.evaluate(() =>
+    [...document.querySelectorAll("main button")].map((key) => key.getBoundingClientRect()).map(({ x, y, width, height }) => [x, y, width, height].map(Math.round).join()).join(" "));
+  pretend(stream, { drive: { spindle_speed: [-3999.6, -3999.6], spindles: [turns, turns] } });
+  await page.locator("[data-test=spindle-S2]").waitFor();
+  await drawn(page);
+  const before = await keys();
+  pretend(stream, { drive: { spindles: [turns, follows] } });
+  const coupling = page.locator("[data-test=spindle-S2] .coupling");
+  await coupling.waitFor();
+  await drawn(page);
+  check(`${where}: the keys stay where they are when a spindle begins to follow`, (await keys()) === before);
+  check(`${where}: what a spindle follows is whole`, await coupling.evaluate((one) => one.scrollWidth <= one.clientWidth + 1));
+  const cut = (await overflowing(page)).filter((part) => /^SECTION\.technology/.test(part));
+  check(`${where}: two spindles fit ${cut}`, cut.length === 0);
+}
+
 /** Whatever the state bar has to show, the keys that stop are where they were. */
 async function still(browser, url, code, { size }) {
   const page = await openPage(browser, null, { size, locale: languages[code].locale });
@@ -72,6 +92,7 @@ async function still(browser, url, code, { size }) {
     for (const time of ["elapsed", "remaining"]) await page.locator(`[data-test=${time}]`).waitFor();
     await looks(state);
   }
+  await twoSpindles(page, stream, where);
   pretend(stream, { plc: { emergency_stop: true } });
   await page.locator("[data-test=estop-engaged]").waitFor();
   await looks("emergency stop");

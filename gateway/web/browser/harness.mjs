@@ -38,6 +38,7 @@ function freePort() {
 
 /** Seconds. It only ends a hang: no test says that something comes within a time. */
 const limit = 60;
+const began = Date.now();
 /** As a hand types: ms a key. */
 export const hand = { delay: 120 };
 
@@ -119,7 +120,7 @@ export async function pressDown(page, key) {
 
 export function check(what, condition) {
   if (!condition) throw new Error(`does not hold: ${what}`);
-  console.log(`ok   ${what}`);
+  console.log(`ok   ${((Date.now() - began) / 1000).toFixed(1).padStart(6)} s  ${what}`);
 }
 
 /** Whether `url` answers by TLS, whoever's its certificate is. */

@@ -139,6 +139,15 @@ async function run(page, url) {
     await eventually("the stop arrives", () => cluster.includes("JOG_STOP"));
     check("releasing the key stops it", true);
 
+    await at("mode-REF").click();
+    await at("home-all").filter({ hasText: "X Y Z A C" }).waitFor();
+    const cut = await overflowing(page);
+    check(`the keys of the reference return fit ${cut}`, cut.length === 0);
+    await shot(page, "reference");
+    await at("home-all").click();
+    await eventually("all axes are homed by one line", () => cluster.includes("MDI_LINE G28.2 X0 Y0 Z0 A0 C0"));
+    await eventually("in the mode for it", async () => (await shown("mode")) === "MDI");
+
     await at("estop").click();
     await page.waitForSelector('[data-test="recover"]');
     check("an emergency stop changes the header", (await text(".estop")) === "STOPPED");

@@ -32,8 +32,14 @@ export interface SpindleShown {
   angle: number;
   /** From 1; 0 = the spindle has no gears */
   gear: number;
+  /** 1/min, signed: the speed its control is given now */
+  reference: number;
   /** Number of the spindle it follows; -1 = none */
   master: number;
+  /** deg, of a spindle that follows: where it should be less where it is */
+  synchronization_error: number;
+  /** 1/min, of the integral action of a spindle that follows */
+  correction: number;
 }
 
 /** Lengths in mm, angles in degrees, feeds in mm/min, spindle speeds in 1/min, as in idl/channel.idl. */

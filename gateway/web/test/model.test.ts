@@ -54,6 +54,14 @@ test("a row takes its following error from the drive's axis of that logical numb
   expect(rows[2]!.load).toBe(0.3);
 });
 
+test("an axis has no reference while its drive says so, and the channel does not know of a newer one", () => {
+  const alarm = (number: number, part: number) => ({ number, part }) as Alarm;
+  const state = { ...emptyState, alarms: { a: alarm(115, 5), b: alarm(115, 7), c: alarm(116, 0) } };
+  const homed = (whole: boolean) => axisRows(state, { ...channel, homed: whole }).map((row) => row.homed);
+  expect(homed(false)).toEqual([true, true, false]);
+  expect(homed(true)).toEqual([true, true, true]);
+});
+
 test("cycle start: not without a program, not while running, not under an emergency stop, but always to go on", () => {
   const plc = (emergency_stop: boolean) => ({
     ...emptyState, plc: { emergency_stop, feed_hold: false, coolant: [], spindle_speed: [] },

@@ -168,6 +168,7 @@ struct Command {
   double lead_change = 0;    ///< of kind thread: mm per revolution in each revolution
   double start_angle = 0;    ///< of kind thread: degrees behind the index mark, in the spindle's direction
   double spindle_speed = 0;  ///< of kind tap: 1/min; 0 = modal.spindle_speed
+  double hole_speed = 0;     ///< of kind tap: 1/min of a faster stroke in the same hole; 0 = there is none
   Table table = Table::none;  ///< of kind table
   bool chord = false;      ///< a piece of a smooth curve (G6.2) or of a move with tool vectors (G43.5) that
                            ///< continues behind it: its end is no corner
@@ -179,6 +180,12 @@ struct Command {
 /// 1/min at which the spindle makes a stroke of kind tap.
 inline double stroke_speed(const Command& stroke) {
   return stroke.spindle_speed > 0 ? stroke.spindle_speed : stroke.modal.spindle_speed;
+}
+
+/// 1/min of the fastest stroke in the hole that begins with `stroke`, of kind tap.
+inline double fastest_stroke(const Command& stroke) {
+  const double own = stroke_speed(stroke);
+  return stroke.hole_speed > own ? stroke.hole_speed : own;
 }
 
 }  // namespace trunnion::canonical

@@ -20,7 +20,6 @@ constexpr double turn_worth_a_move = 1e-6;  // degrees
 constexpr std::uint32_t most_vector_pieces = 1024;
 constexpr double straight_on = 180;  // degrees: interior angle and turn of a corner together
 constexpr int first_plane = 17;      // G17
-constexpr std::uint32_t spindle_gears = 5;
 
 // An axis that the chain turns and that nothing moves would stay at zero without a word.
 void check_chain_axes(const geometry::Chain& chain, const machine::ChannelAxes& axes, std::uint16_t channel) {
@@ -61,6 +60,16 @@ language::MFunctions m_functions(const machine::Parameters& p, std::uint32_t cha
 }
 
 }  // namespace
+
+double TappingSpindle::acceleration_up_to(double speed) const {
+  const double lowest = ramp.at(speed);
+  return lowest > 0 ? lowest : ramp.acceleration;
+}
+
+double TappingSpindle::highest_speed_in(std::size_t gear) const {
+  const double of_gear = gear >= 1 && gear <= gear_speeds.size() ? gear_speeds[gear - 1] : 0;
+  return of_gear > 0 ? std::min(highest_speed, of_gear) : highest_speed;
+}
 
 ChannelSetup::ChannelSetup(const tool_tables::MachineTables& tables) : ChannelSetup(tables.channel) {
   configure(tables.parameters);
@@ -166,12 +175,18 @@ void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
   auto next = std::find_if(spindles.begin(), spindles.end(),
                            [&](const auto& spindle) { return first < 0 || spindle.number == first; });
   const auto spindle = [&](auto at) {
-    if (at == spindles.end()) return TappingSpindle{};
-    TappingSpindle found{at->number, p.get(parameter::maximum_acceleration, at->number),
-                         p.get(parameter::maximum_speed, at->number), false};
+    TappingSpindle found;
+    if (at == spindles.end()) return found;
+    found.axis = at->number;
+    found.ramp = {p.get(parameter::maximum_acceleration, at->number),
+                  p.integer(parameter::speed_dependent_acceleration, at->number) != 0,
+                  p.get(parameter::base_speed, at->number), p.get(parameter::power_speed, at->number)};
+    found.highest_speed = p.get(parameter::maximum_speed, at->number);
     double of_gears = 0;
-    for (std::uint32_t gear = 0; gear < spindle_gears; ++gear)
-      of_gears = std::max(of_gears, p.get(parameter::gear_highest_speed, at->number, gear));
+    for (std::uint32_t gear = 0; gear < TappingSpindle::gear_count; ++gear) {
+      found.gear_speeds[gear] = p.get(parameter::gear_highest_speed, at->number, gear);
+      of_gears = std::max(of_gears, found.gear_speeds[gear]);
+    }
     found.by_gears = of_gears > 0 && (found.highest_speed == 0 || of_gears < found.highest_speed);
     if (found.by_gears) found.highest_speed = of_gears;
     return found;

@@ -3,6 +3,8 @@
 // revision. The channel, the report and the commands that work without a cluster read programs with it.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
@@ -15,6 +17,7 @@
 #include "geometry/direction_path.hpp"
 #include "language/environment.hpp"
 #include "machine/axes.hpp"
+#include "machine/spindle_acceleration.hpp"
 #include "machine/stream_settings.hpp"
 #include "motion/limits.hpp"
 #include "parameter_store/machine_tables.hpp"
@@ -24,10 +27,19 @@ namespace trunnion::channel_setup {
 /// The spindle that S turns and rigid tapping couples; `axis` is its logical number, nothing when the machine
 /// has none.
 struct TappingSpindle {
+  static constexpr std::size_t gear_count = 5;
+
   std::optional<std::uint16_t> axis;
-  double acceleration = 0;   ///< degrees/s^2
-  double highest_speed = 0;  ///< 1/min, 0 = no limit
-  bool by_gears = false;     ///< it is that of the highest gear (10a985), not 10a948
+  machine::SpindleAcceleration ramp;
+  double highest_speed = 0;                      ///< 1/min, 0 = no limit
+  bool by_gears = false;                         ///< it is that of the highest gear (10a985), not 10a948
+  std::array<double, gear_count> gear_speeds{};  ///< highest of each gear, 1/min; 0 = there is no such gear
+
+  /// degrees/s^2 that it has at every speed up to `speed`, 1/min; where alarm 182 refuses its parameters,
+  /// that of low speeds.
+  double acceleration_up_to(double speed) const;
+  /// highest_speed while `gear` is engaged, from 1; 0 = none is, or it is not known which.
+  double highest_speed_in(std::size_t gear) const;
 };
 
 class ChannelSetup : public language::Environment {

@@ -76,8 +76,9 @@ enum class ThreadBlock : std::uint8_t {
 /// A letter except G and M occurs at most once in a block, so words are looked up by letter.
 struct Block {
   Head head = Head::none;
-  bool skipped = false;  ///< begins with / and that level is switched on; nothing else of it was read
-  bool message = false;  ///< shows the text behind $ of its line (NUM)
+  bool skipped = false;       ///< begins with / and that level is switched on; nothing else of it was read
+  bool message = false;       ///< shows the text at message_at of its line (NUM)
+  bool ends_program = false;  ///< its M2 ends the program also where it is called (NUM)
   bool condition = false;
   char lead_word = 'F';  ///< of threads and taps; with K (NUM), F is a feed
   ThreadBlock thread = ThreadBlock::chained;
@@ -85,8 +86,9 @@ struct Block {
   std::uint8_t g_count = 0;
   std::uint8_t m_count = 0;
   std::uint8_t centre_count = 0;
-  std::uint16_t at = 0;    ///< byte of the statement
-  std::uint16_t rest = 0;  ///< byte behind the word of the statement
+  std::uint16_t at = 0;          ///< byte of the statement
+  std::uint16_t rest = 0;        ///< byte behind the word of the statement
+  std::uint16_t message_at = 0;  ///< byte of the text behind $
   std::uint32_t label = 0;
   std::uint32_t program_number = 0;
   std::uint32_t called = 0;  ///< the program that the M98 among `m` calls, when P does not name it; 0: P does
@@ -110,7 +112,7 @@ struct Block {
   /// Makes the block empty; what is absent keeps what it had and means nothing.
   void clear() {
     head = Head::none;
-    skipped = message = false;
+    skipped = message = ends_program = false;
     lead_word = 'F';
     thread = ThreadBlock::chained;
     statement = Statement::none;
@@ -127,6 +129,7 @@ struct Outline {
   std::uint32_t program_number = 0;
   std::optional<std::uint32_t> sequence_number;  ///< N
   std::uint32_t label = 0;                       ///< of begin_do and end_do
+  Fault behind;  ///< of else_ and the ends: what read_block finds wrong behind the word
 };
 
 /// Bit n - 1 for block skip level n: /1 .. /9; a lone / is /1.
@@ -137,6 +140,7 @@ struct DialectRules {
   bool text_ends_subprograms = false;  ///< their text or M2 ends them, and the caller continues
   bool cycle_m_codes = true;           ///< the M codes of parameters 010170 .. 010177 call cycles
   std::uint32_t homing_program = 0;    ///< a call of it, unless it is stored, homes the axis of L0; 0: none
+  bool text_closes_else = false;       ///< the end of a program closes an IF behind its ELSE
 };
 
 /// How one dialect writes blocks. A reader hands over the codes of `g_codes` and `m_codes`, under whatever

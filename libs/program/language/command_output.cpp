@@ -129,6 +129,7 @@ Fault CommandOutput::move_straight(const StraightMove& move, const AxisValues& p
   command.lead_change = move.lead_change;
   command.start_angle = move.start_angle;
   command.spindle_speed = move.spindle_speed;
+  command.hole_speed = move.hole_speed;
   command.out = move.out;
   if (move.kind != CommandKind::rapid && !linear && state_.modal.feed_mode != FeedMode::inverse_time) {
     command.modal.feed /= state_.modal.metric ? 1.0 : 25.4;

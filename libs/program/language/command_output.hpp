@@ -22,6 +22,7 @@ struct StraightMove {
   double lead_change = 0;    ///< as Command::lead_change
   double start_angle = 0;    ///< as Command::start_angle
   double spindle_speed = 0;  ///< as Command::spindle_speed
+  double hole_speed = 0;     ///< as Command::hole_speed
   bool out = false;          ///< as Command::out
 };
 

@@ -6,6 +6,7 @@
 #include "language/arithmetic.hpp"
 #include "language/decimal.hpp"
 #include "language/letters.hpp"
+#include "language/num_parameters.hpp"
 
 namespace trunnion::language {
 namespace {
@@ -22,6 +23,7 @@ constexpr std::uint32_t spindle_variables = 4801;  // of the first value; those 
 constexpr std::uint32_t values_apart = 10;
 constexpr std::uint32_t num_spindles = 4;       // B1 to B4
 constexpr std::uint32_t speed_control = 91024;  // E91024, of B1
+constexpr std::uint32_t unhomed_axis = 91100;   // E91100, of X
 constexpr double parts_of_turn = 65536;         // unit of E90310 and E95224
 constexpr double steps_of_turn = 100000;        // unit of E90100
 
@@ -129,8 +131,19 @@ AlarmNumber ControlVariables::live_parameter(std::uint32_t number, double& value
   return AlarmNumber::num_parameter_unavailable;
 }
 
+// An axis that the channel does not have would be waited for without end.
+AlarmNumber ControlVariables::not_homed(std::uint32_t address, double& value) const {
+  const auto axis = static_cast<std::uint32_t>(axis_letters.find(addressed_axes[address]));
+  if (((environment_.axes() >> axis) & 1u) == 0) return AlarmNumber::num_parameter_unavailable;
+  const AlarmNumber alarm = homed(axis, value);
+  value = 1 - value;
+  return alarm;
+}
+
 // What the program has written is read again, although the machine takes some of it at a reset only.
 AlarmNumber ControlVariables::read_external(std::uint32_t number, double& value) const {
+  if (number >= unhomed_axis && number - unhomed_axis < addressed_axes.size())
+    return not_homed(number - unhomed_axis, value);
   const AlarmNumber alarm = live_parameter(number, value);
   if (alarm != AlarmNumber::num_parameter_unavailable) return alarm;
   for (std::size_t i = request_count_; i-- > 0;) {

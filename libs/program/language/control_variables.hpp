@@ -70,6 +70,8 @@ class ControlVariables final : public SystemVariables {
  private:
   AlarmNumber modal(std::uint32_t number, double& result) const;
   AlarmNumber homed(std::uint32_t axis, double& result) const;
+  /// 1 when the axis of this address of a NUM control has no reference, else 0.
+  AlarmNumber not_homed(std::uint32_t address, double& value) const;
   double in_program_units(std::uint32_t axis, double value) const;
   double to_machine_units(std::uint32_t axis, double value) const;
   AlarmNumber ask(const VariableRange& range, std::uint32_t index, double value);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "language/block_executor.hpp"
 #include "language/control_variables.hpp"
@@ -128,10 +129,15 @@ class Interpreter {
   /// The line of the started text that is executed, or has called what is.
   std::uint32_t main_line() const { return depth_ == 0 ? line_ : levels_[1].call_line; }
 
+  /// The text behind $ of the newest block that has one, as a display can show it, at most `longest_message`
+  /// bytes: until next() is called behind its CommandKind::message.
+  std::string_view message_text() const { return {message_.data(), message_size_}; }
+
   /// Positions, frames and tables as the program has left them, for system variables.
   const BlockExecutor& executor() const { return executor_; }
 
   static const Dialect& dialect_of(ProgramDialect name);
+  static constexpr std::size_t longest_message = 96;
 
  private:
   struct CallLevel {
@@ -230,6 +236,8 @@ class Interpreter {
   std::size_t depth_ = 0;
   State state_ = State::done;
   Alarm alarm_;
+  std::array<char, longest_message> message_{};
+  std::size_t message_size_ = 0;
   std::uint32_t line_ = 0;  // of the block being executed
   std::uint32_t stop_line_ = 0;
   EndlessLoop* watch_ = nullptr;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "language/interpreter.hpp"
+#include "language/num_parameters.hpp"
 
 namespace trunnion::language {
 
@@ -90,13 +91,14 @@ Interpreter::State Interpreter::enter(const Found& target) {
   return State::running;
 }
 
+// A variable that was never written is 0, and 0 is an axis.
 std::optional<std::size_t> Interpreter::homing_axis() const {
-  constexpr std::string_view axes = "XYZUVWABC";
   Value number;
-  if (variables_.read(0, number) != AlarmNumber::none) return std::nullopt;
+  if (variables_.read(0, number) != AlarmNumber::none || !number.given) return std::nullopt;
   const double value = number.number;
-  if (value != std::floor(value) || value < 0 || value > 8) return std::nullopt;
-  return axis_letters.find(axes[static_cast<std::size_t>(value)]);
+  if (value != std::floor(value) || value < 0 || value >= static_cast<double>(addressed_axes.size()))
+    return std::nullopt;
+  return axis_letters.find(addressed_axes[static_cast<std::size_t>(value)]);
 }
 
 Interpreter::State Interpreter::home_axis() {

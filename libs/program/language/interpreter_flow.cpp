@@ -100,7 +100,7 @@ Interpreter::State Interpreter::search(Purpose purpose, std::uint32_t wanted, Te
 
 Interpreter::State Interpreter::arrive(const JumpCache::Target& target) {
   CallLevel& level = levels_[depth_];
-  level.open.cut(target.open);
+  level.open.cut(target.open, target.divided);
   else_if_due_ = target.at_else_if;
   reader_.seek(*level.source, target.position);
   return State::running;
@@ -126,9 +126,19 @@ Interpreter::State Interpreter::search_line(Step& step) {
   } else {
     if (outline.head != Head::none) return search_ended();
     if (search_.open.size() == search_.depth && structure_found(outline.statement)) {
-      JumpCache::Target target{reader_.position(), search_.depth - 1, false};
-      if (outline.statement == Statement::else_) target.open = search_.depth;
-      if (outline.statement == Statement::else_if) target = {position, search_.depth, true};
+      // The jump passes the line, so nothing else reads what is behind its word.
+      if (outline.behind) {
+        line_ = position.line;
+        return fail(outline.behind, line);
+      }
+      JumpCache::Target target{reader_.position(), search_.depth - 1, false, search_.open.divided()};
+      if (outline.statement == Statement::else_) {
+        search_.open.pass(outline.statement, outline.label, position);
+        target.open = search_.depth;
+        target.divided = search_.open.divided();
+      }
+      if (outline.statement == Statement::else_if)
+        target = {position, search_.depth, true, search_.open.divided()};
       jumps_.store(search_.source, search_.from.offset, key(search_.purpose, search_.wanted), target);
       return arrive(target);
     }
@@ -159,7 +169,7 @@ bool Interpreter::structure_found(Statement statement) const {
 Interpreter::State Interpreter::label_found(TextPosition position) {
   const std::size_t common = levels_[depth_].open.common(search_.open);
   if (common != search_.open.size()) return fail(not_allowed_);
-  const JumpCache::Target target{position, common, false};
+  const JumpCache::Target target{position, common, false, search_.open.divided()};
   jumps_.store(search_.source, search_.from.offset, key(search_.purpose, search_.wanted), target);
   return arrive(target);
 }
@@ -179,6 +189,10 @@ Interpreter::State Interpreter::search_ended() {
       reader_.seek(*search_.source, {});
       return State::searching;
     }
+  }
+  if (search_.purpose == Purpose::end && rules_.text_closes_else) {
+    search_.open.close_divided();
+    if (search_.open.size() < search_.depth) return end_of_text();
   }
   if (search_.purpose != Purpose::label || search_.from_top) return fail(not_found_);
   search_.from_top = true;

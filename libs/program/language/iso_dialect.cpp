@@ -2,49 +2,17 @@
 #include "language/iso_dialect.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 #include "language/cycle_signature.hpp"
 #include "language/expression.hpp"
+#include "language/iso_line.hpp"
 #include "language/letters.hpp"
 #include "language/scanner.hpp"
 #include "text/utf8.hpp"
 
 namespace trunnion::language {
 namespace {
-
-constexpr std::uint32_t highest_label = 99999999;
-
-Fault read_head(Scanner& scanner, Head& head, std::uint32_t& number) {
-  const std::uint16_t at = scanner.offset();
-  const bool percent = scanner.peek() == '%';
-  scanner.advance();
-  scanner.skip_blanks();
-  if (scanner.at_end() || !is_digit(scanner.peek())) {
-    if (!percent) return {AlarmNumber::number_missing, at};
-    head = Head::tape_mark;
-    return {};
-  }
-  const Decimal decimal = scanner.number();
-  if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
-  if (decimal.value != std::floor(decimal.value)) return {AlarmNumber::not_an_integer, at};
-  head = Head::program;
-  number = static_cast<std::uint32_t>(decimal.value);
-  return {};
-}
-
-/// Takes / and its level; whether the block is to be skipped.
-bool read_skip(Scanner& scanner, SkipLevels skip) {
-  unsigned level = 1;
-  scanner.advance();
-  if (!scanner.at_end() && scanner.peek() >= '1' && scanner.peek() <= '9') {
-    level = static_cast<unsigned>(scanner.peek() - '0');
-    scanner.advance();
-  }
-  scanner.skip_blanks();
-  return ((skip >> (level - 1)) & 1u) != 0;
-}
-
-bool starts_head(char c) { return c == '%' || letter(c) == 'O'; }
 
 class BlockReader {
  public:
@@ -212,15 +180,7 @@ class BlockReader {
     return state(Statement::assignment);
   }
 
-  /// Only comments may follow.
-  Fault end_of_statement() {
-    while (scanner_.more() && scanner_.peek() == '(') {
-      const std::uint16_t at = scanner_.offset();
-      if (!scanner_.skip_comment()) return {AlarmNumber::open_comment, at};
-    }
-    if (scanner_.at_end() || scanner_.peek() == ';') return {};
-    return {AlarmNumber::text_behind_statement, scanner_.offset()};
-  }
+  Fault end_of_statement() { return end_of_line(scanner_); }
 
   Fault read_condition(bool& result) {
     Value value;
@@ -379,69 +339,6 @@ class BlockReader {
   bool behind_then_ = false;
 };
 
-std::uint32_t plain_number(Scanner& scanner) {
-  std::uint32_t number = 0;
-  for (scanner.skip_blanks(); !scanner.at_end() && is_digit(scanner.peek()); scanner.advance()) {
-    number = number > highest_label ? number : number * 10 + static_cast<unsigned>(scanner.peek() - '0');
-  }
-  return number;
-}
-
-/// Whether `word` is somewhere in the rest of the line outside a comment; the scanner is then behind it.
-bool find_word(Scanner& scanner, std::string_view word) {
-  while (!scanner.at_end() && scanner.peek() != ';') {
-    if (scanner.take_word(word)) return true;
-    if (scanner.peek() != '(') {
-      scanner.advance();
-    } else if (!scanner.skip_comment()) {
-      return false;
-    }
-  }
-  return false;
-}
-
-/// Past blanks and comments; false at an open comment.
-bool skip_comments(Scanner& scanner) {
-  while (scanner.more() && scanner.peek() == '(') {
-    if (!scanner.skip_comment()) return false;
-  }
-  return true;
-}
-
-/// Whether only comments are left.
-bool nothing_follows(Scanner scanner) {
-  return !skip_comments(scanner) || scanner.at_end() || scanner.peek() == ';';
-}
-
-Statement outline_statement(Scanner scanner, std::uint32_t& label) {
-  if (scanner.take_word("IF")) {
-    Scanner rest = scanner;
-    if (find_word(rest, "GOTO")) return Statement::none;
-    rest = scanner;
-    if (find_word(rest, "THEN") && !nothing_follows(rest)) return Statement::none;
-    return Statement::begin_if;
-  }
-  if (scanner.take_word("WHILE")) {
-    if (!find_word(scanner, "DO") || !scanner.more() || !is_digit(scanner.peek()))
-      return Statement::begin_while;
-    label = plain_number(scanner);
-    return Statement::begin_do;
-  }
-  if (scanner.take_word("DO")) {
-    label = plain_number(scanner);
-    return Statement::begin_do;
-  }
-  if (scanner.take_word("ENDW")) return Statement::end_while;
-  if (scanner.take_word("ENDIF")) return Statement::end_if;
-  if (scanner.take_word("END")) {
-    label = plain_number(scanner);
-    return Statement::end_do;
-  }
-  if (scanner.take_word("ELSEIF")) return Statement::else_if;
-  if (scanner.take_word("ELSE")) return Statement::else_;
-  return Statement::none;
-}
-
 }  // namespace
 
 Fault IsoDialect::read_block(std::string_view line, SkipLevels skip, Variables& variables,
@@ -458,37 +355,6 @@ Fault IsoDialect::read_condition(std::string_view line, std::uint16_t rest, cons
   if (scanner.more()) scanner.take_word("THEN");
   if (!nothing_follows(scanner)) return {AlarmNumber::text_behind_statement, scanner.offset()};
   return {};
-}
-
-Outline IsoDialect::outline(std::string_view line, SkipLevels skip) const {
-  Outline outline;
-  Scanner scanner(line);
-  if (!scanner.more() || scanner.peek() == '*') return outline;
-  const bool skip_is_read = scanner.peek() == '/';
-  if (skip_is_read && read_skip(scanner, skip)) return outline;
-  if (scanner.at_end()) return outline;
-  if (starts_head(scanner.peek())) {
-    if (read_head(scanner, outline.head, outline.program_number)) outline.head = Head::none;
-  }
-  if (!skip_comments(scanner) || scanner.at_end()) return outline;
-  if (letter(scanner.peek()) == 'N') {
-    scanner.advance();
-    scanner.skip_blanks();
-    const Decimal number = scanner.number();
-    if (number.status != DecimalStatus::ok) return outline;
-    if (!skip_comments(scanner)) return outline;
-    if (!skip_is_read && !scanner.at_end() && scanner.peek() == '/' && read_skip(scanner, skip)) {
-      return outline;
-    }
-    if (number.value >= 0 && number.value == std::floor(number.value)) {
-      outline.sequence_number = static_cast<std::uint32_t>(number.value);
-    }
-    if (!skip_comments(scanner)) return outline;
-  }
-  if (!scanner.at_end() && letter(scanner.peek()) != '\0' && letter(scanner.peek(1)) != '\0') {
-    outline.statement = outline_statement(scanner, outline.label);
-  }
-  return outline;
 }
 
 }  // namespace trunnion::language

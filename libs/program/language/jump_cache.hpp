@@ -14,8 +14,9 @@ class JumpCache {
  public:
   struct Target {
     TextPosition position;
-    std::size_t open = 0;     ///< how many of the structures open at the jump are open there
-    bool at_else_if = false;  ///< position is an ELSEIF whose condition decides
+    std::size_t open = 0;       ///< how many of the structures open at the jump are open there
+    bool at_else_if = false;    ///< position is an ELSEIF whose condition decides
+    std::uint16_t divided = 0;  ///< OpenStructures::divided() there
   };
 
   void clear() { entries_.fill({}); }

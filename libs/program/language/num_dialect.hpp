@@ -17,13 +17,14 @@ namespace trunnion::language {
 /// - `L0=2 E80001=L0+1 G1 X10`: assignments and words in one block, carried out from left to right, the words
 ///   with what was assigned before them;
 /// - IF condition THEN, ELSE, ENDI; WHILE condition DO, ENDW: first in their line; behind THEN and DO may be
-///   words, assignments and a message, behind the others nothing;
+///   words, assignments and a message, behind the others nothing; the end of a program closes an IF behind
+///   its ELSE;
 /// - E94125=24 orders the synchronization of a spindle, EC, in a block without a thread, its angle: the block
 ///   waits until both spindles are known to be homed. Values that the drive knows (E93525) are read at rest,
 ///   before their block;
 /// - G77 Hn.i calls a program, behind the words of its block; the end of its text, the next head or M2 ends
 ///   it. Program 9990.9 homes the axis of L0 unless it is stored. G79 Nn and G79 condition Nn jump, alone in
-///   their block.
+///   their block. G39+ ends the started program wherever it is.
 /// What other functions take, EA EB ES among it, is an alarm with its name.
 class NumDialect final : public Dialect {
  public:

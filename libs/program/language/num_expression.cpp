@@ -13,6 +13,7 @@ namespace trunnion::language {
 namespace {
 
 constexpr std::uint32_t last_local_l = 19, first_common_l = 100, last_common_l = 199;
+constexpr std::uint32_t drive_sets = 353, drive_measurements = 942;  // hundreds of E353aa and E942xx
 
 struct Comparison {
   std::string_view sign;
@@ -105,6 +106,7 @@ Fault NumExpressionReader::variable(std::uint16_t at, std::uint32_t& number) {
 
 Fault NumExpressionReader::parameter(std::uint16_t at, ExternalPlace& place) {
   std::optional<ExternalPlace> found;
+  std::uint32_t number = 0;
   if (scanner_.peek(0) == '[') {
     scanner_.advance();
     std::array<char, 8> name{};
@@ -118,11 +120,11 @@ Fault NumExpressionReader::parameter(std::uint16_t at, ExternalPlace& place) {
     scanner_.advance();
     found = external_parameter(std::string_view(name.data(), size));
   } else {
-    std::uint32_t number = 0;
     if (!digits(number)) return {AlarmNumber::number_missing, at};
     found = external_parameter(number);
   }
-  if (!found) return {AlarmNumber::num_parameter_unknown, at};
+  const bool of_drive = number / 100 == drive_sets || number / 100 == drive_measurements;
+  if (!found) return {AlarmNumber::num_parameter_unknown, at, of_drive ? "NUM error 92" : nullptr};
   place = *found;
   return {};
 }

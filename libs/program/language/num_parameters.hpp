@@ -22,6 +22,9 @@ struct ExternalParameter {
 /// Programs store what they like in these; they are #900 .. #950.
 inline constexpr std::uint32_t first_free_parameter = 80000, free_parameters = 51, first_free_variable = 900;
 
+/// Axes in the order of their addresses on a NUM control, from 0: E91100 is that of X, L0 = 8 of 9990.9 is C.
+inline constexpr std::string_view addressed_axes = "XYZUVWABC";
+
 inline constexpr std::array external_parameters = {
     ExternalParameter{11012, 1, "", true, "", "1: high-speed machining"},
     ExternalParameter{35300, 32, "", true, "", "parameter sets of the drive: 0 spindle, 11 C axis"},
@@ -42,6 +45,7 @@ inline constexpr std::array external_parameters = {
     ExternalParameter{90390, 4, "MAXGANB", false, "1/min", "largest speed of the range"},
     ExternalParameter{91008, 1, "", true, "", "1: C axis in position control"},
     ExternalParameter{91024, 4, "", true, "", "0: speed control"},
+    ExternalParameter{91100, 9, "", false, "", "1: axis not homed"},
     ExternalParameter{91124, 4, "POM_B", false, "", "1: not homed"},
     ExternalParameter{93524, 4, "POS_B", false, "", "1: synchronized"},
     ExternalParameter{94124, 4, "MASTERB", true, "", "address of the master, 24 to 27; -1: none"},

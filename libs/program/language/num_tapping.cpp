@@ -108,6 +108,7 @@ Fault NumTapping::stroke_to(const Tap& tap, double to, double lead, double speed
   StraightMove stroke{CommandKind::tap};
   stroke.value = lead;
   stroke.spindle_speed = speed;
+  stroke.hole_speed = tap.retract_speed;
   return output_.move_straight(stroke, target);
 }
 

@@ -19,7 +19,9 @@ AlarmNumber OpenStructures::pass(Statement statement, std::uint32_t label, TextP
       return AlarmNumber::none;
     case Statement::else_if:
     case Statement::else_:
-      return inside(Statement::begin_if) ? AlarmNumber::none : AlarmNumber::end_without_begin;
+      if (!inside(Statement::begin_if)) return AlarmNumber::end_without_begin;
+      if (statement == Statement::else_) open_[size_ - 1].divided = true;
+      return AlarmNumber::none;
     case Statement::end_if:
       fits = inside(Statement::begin_if);
       break;
@@ -33,6 +35,18 @@ AlarmNumber OpenStructures::pass(Statement statement, std::uint32_t label, TextP
   if (!fits) return AlarmNumber::end_without_begin;
   --size_;
   return AlarmNumber::none;
+}
+
+void OpenStructures::cut(std::size_t size, std::uint16_t divided) {
+  size_ = size;
+  for (std::size_t i = 0; i < size; ++i) open_[i].divided = ((divided >> i) & 1u) != 0;
+}
+
+std::uint16_t OpenStructures::divided() const {
+  static_assert(max_structures <= 16);
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < size_; ++i) bits |= open_[i].divided ? 1u << i : 0u;
+  return static_cast<std::uint16_t>(bits);
 }
 
 std::size_t OpenStructures::common(const OpenStructures& other) const {

@@ -17,6 +17,7 @@ struct Structure {
   Statement kind = Statement::none;  ///< begin_if, begin_while or begin_do
   std::uint32_t label = 0;           ///< of begin_do
   TextPosition begin;                ///< its line
+  bool divided = false;              ///< its ELSE was passed
 };
 
 /// The open structures, outermost first. What is open depends on the place alone, not on how the program got
@@ -26,7 +27,14 @@ class OpenStructures {
   std::size_t size() const { return size_; }
   const Structure& top() const { return open_[size_ - 1]; }
   void clear() { size_ = 0; }
-  void cut(std::size_t size) { size_ = size; }
+  /// Leaves the `size` outermost, with what divided() said of them.
+  void cut(std::size_t size, std::uint16_t divided);
+  /// Bit n of structure n: its ELSE was passed.
+  std::uint16_t divided() const;
+  /// Closes the innermost ones as long as their ELSE was passed.
+  void close_divided() {
+    while (size_ != 0 && top().divided) --size_;
+  }
 
   /// Passes a line with `statement`; an end must fit the innermost structure.
   AlarmNumber pass(Statement statement, std::uint32_t label, TextPosition position);

@@ -4,17 +4,13 @@
 #include <bit>
 
 namespace trunnion::language {
-namespace {
-
-constexpr std::uint32_t tapping_axes = 1u << X | 1u << Y | 1u << Z;
-
-}  // namespace
 
 Fault TapRemoval::run(std::uint16_t at) {
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   std::uint32_t axes = 0;
   if (const Fault fault = words_.take_axes(at, axes)) return fault;
-  if (!std::has_single_bit(axes) || (axes & tapping_axes) == 0 || state_.modal.mirrored)
+  const auto axis = static_cast<std::size_t>(std::countr_zero(axes));
+  if (!std::has_single_bit(axes) || is_rotary(axis) || state_.modal.mirrored)
     return {AlarmNumber::tap_removal_axis, at};
   // A reader of another dialect has made the hand of the thread out of M3 or M4.
   const bool checked = words_.lead_word() != 'K';
@@ -22,7 +18,6 @@ Fault TapRemoval::run(std::uint16_t at) {
   const double lead = words_.length('K');
   if (lead == 0) return {AlarmNumber::tap_removal_lead, words_.offset('K')};
   if (const Fault fault = check_spindle(at)) return fault;
-  const auto axis = static_cast<std::size_t>(std::countr_zero(axes));
   AxisValues target = state_.program_position;
   target[axis] += words_.axis(axis);
   if (checked) {

@@ -13,8 +13,8 @@ class TapRemoval : private BlockHandler {
  public:
   explicit TapRemoval(BlockContext& context) : BlockHandler(context) {}
 
-  /// One axis word: how far out from the position. K: the lead, negative of a left-hand thread. The spindle
-  /// turns out of the thread at S.
+  /// One word of a linear axis: how far out from the position. K: the lead, negative of a left-hand thread.
+  /// The spindle turns out of the thread at S.
   Fault run(std::uint16_t at);
 
  private:

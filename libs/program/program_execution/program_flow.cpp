@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_execution/program_flow.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -33,6 +35,11 @@ bool is_path(CommandKind kind) {
   return kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc;
 }
 
+bool moves_axes(CommandKind kind) {
+  return is_path(kind) || kind == CommandKind::skip || kind == CommandKind::thread ||
+         kind == CommandKind::home;
+}
+
 /// What turns the spindle or changes its tool: not on axes whose place is unknown. Clamps and coolant may be
 /// needed for the search of the references.
 bool needs_references(const language::Command& command) {
@@ -62,6 +69,7 @@ void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, c
   lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   place_ = position;
   tapping_ = in_hole_ = text_missing_ = behind_thread_ = false;
+  restart_passed_ = restart_in_thread_ = false;
   set_threading(false);
   surface_speed_used_ = initial.spindle_mode == language::SpindleMode::surface;
   executing_ = initial;
@@ -156,6 +164,12 @@ void ProgramFlow::set_threading(bool threading) {
 // The axes are at rest: the guard may take its time.
 FlowState ProgramFlow::take_leg() {
   if (!without_reference_.empty()) return fail_without_reference();
+  // Behind the last of them another thread would begin, out of phase with this one.
+  if (legs_.size() == ThreadPath::most_legs)
+    return fail(
+        language::AlarmNumber::thread_impossible,
+        fmt::format("{}: it has more than {} blocks; end it with G9, or make it of fewer blocks",
+                    language::alarm_text(language::AlarmNumber::thread_impossible), ThreadPath::most_legs));
   const auto from = legs_.empty() ? motion_->end_position() : legs_.back().target;
   if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
   auto free = ask_guard(from);
@@ -168,8 +182,7 @@ FlowState ProgramFlow::take_leg() {
   executing_ = command_.modal;
   have_command_ = false;
   if (on_move) on_move(thread_line(command_, from));
-  thread_complete_ = command_.modal.path_control == language::PathControl::exact_stop ||
-                     legs_.size() == ThreadPath::most_legs;
+  thread_complete_ = command_.modal.path_control == language::PathControl::exact_stop;
   return FlowState::full;
 }
 
@@ -234,6 +247,10 @@ FlowState ProgramFlow::push_pending() {
 
 void ProgramFlow::refuse_pending(language::AlarmNumber number) { fail(number); }
 
+void ProgramFlow::refuse_pending(language::AlarmNumber number, const std::string& why) {
+  fail(number, std::string(language::alarm_text(number)) + ": " + why);
+}
+
 void ProgramFlow::refuse_thread(language::AlarmNumber number, std::size_t leg) {
   const auto& at = legs_[leg];
   fail(definition_of(number), place(at.program, at.line) + ": " + std::string(language::alarm_text(number)));
@@ -247,77 +264,6 @@ FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text)
 FlowState ProgramFlow::fail_without_reference() {
   return fail(language::AlarmNumber::axes_without_reference,
               "axes without a reference: " + without_reference_ + ". Home them with G28.2, or in mode REF");
-}
-
-// A restart behind it finds the axes as they have been homed since.
-void ProgramFlow::home_ended(const AxisValues& position) {
-  skips_.push_back({position, position});
-  place_ = position;
-  extent_ = channel_setup::AxisBox::of(position);
-  finish_pending();
-}
-
-// Equal values behind each other are one result, so that a program that waits for a value can be continued:
-// X of `stopped` is the value, X of `touched` how often it was read.
-void ProgramFlow::value_read(double value) {
-  using language::X;
-  if (value_last_ && skips_.back().stopped[X] == value) {
-    values_read_ = skips_.back().touched[X];
-    skips_.back().touched[X] += 1;
-    --skips_read_;
-    return;
-  }
-  SkipResult result;
-  result.stopped[X] = value, result.touched[X] = 1;
-  skips_.push_back(result);
-}
-
-// As behind a skip move.
-FlowState ProgramFlow::continue_after_read() {
-  if (search_ == Search::line)
-    return fail_search("line " + std::to_string(command_.line) +
-                       " reads the state of a spindle, and what follows depends on it");
-  if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
-  const auto& result = skips_[skips_read_];
-  interpreter_.give_value(result.stopped[language::X]);
-  values_read_ += 1;
-  value_last_ = values_read_ >= result.touched[language::X];
-  if (value_last_) ++skips_read_, values_read_ = 0;
-  return FlowState::full;
-}
-
-// What was read behind the restart point is void.
-void ProgramFlow::drop_later_results() {
-  if (values_read_ > 0) {
-    skips_[skips_read_].touched[language::X] = std::exchange(values_read_, 0);
-    ++skips_read_;
-    value_last_ = true;
-  }
-  skips_.resize(skips_read_);
-}
-
-// A skip move has ended, now or before the restart: the interpreter continues from where it ended. A search
-// for references that was passed over has ended at the reference positions.
-FlowState ProgramFlow::continue_after_skip() {
-  if (search_ == Search::line && interpreter_.homing())
-    skips_.push_back({home_target_, home_target_});
-  else if (search_ == Search::line)
-    return fail_search("line " + std::to_string(command_.line) +
-                       " measures (G31), and what follows depends on it");
-  if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
-  interpreter_.set_position(skips_[skips_read_].stopped, skips_[skips_read_].touched);
-  ++skips_read_;
-  value_last_ = false;
-  return FlowState::full;
-}
-
-// A call that is only searched for a restart or a line is not answered again: the service has gone on.
-FlowState ProgramFlow::fail_after_cycle() {
-  if (search_ == Search::line)
-    return fail_search(
-        "a cycle of another service is called before it, and what follows depends on its answer");
-  return fail(language::AlarmNumber::not_resumable,
-              "a program behind a cycle of another service cannot be resumed: reset and start again");
 }
 
 // The blocks of a contour with cutter radius compensation, and of a curve, depend on each other: in the
@@ -375,6 +321,19 @@ FlowState ProgramFlow::take_step(language::Step step) {
   return FlowState::waiting;
 }
 
+// The axes are at its end, in its frame, and the spindle is coupled no longer.
+bool ProgramFlow::pass_done(bool drilling) {
+  const bool thread = coupled_threads_ && command_.kind == CommandKind::thread;
+  const auto& point = entry_.restart;
+  if (search_ != Search::restart || command_.sequence != point.sequence || point.fraction < 1 ||
+      !(drilling || thread))
+    return false;
+  restart_passed_ = true;
+  restart_in_thread_ = thread && command_.modal.path_control == language::PathControl::continuous;
+  executing_ = command_.modal;
+  return true;
+}
+
 std::optional<double> ProgramFlow::turning_radius(std::uint32_t sequence, const AxisValues& position) const {
   if (!surface_speed_used_) return std::nullopt;
   const auto* modal = modals_.at(sequence);
@@ -425,20 +384,22 @@ FlowState ProgramFlow::fill(bool single_block) {
     if (searching()) {
       const bool drilling =
           command_.kind == CommandKind::tap || (in_hole_ && command_.kind == CommandKind::dwell);
-      if (search_ == Search::line || command_.sequence < entry_.restart.sequence) {
+      if (search_ == Search::line || command_.sequence < entry_.restart.sequence || pass_done(drilling)) {
         in_hole_ = drilling;
         finish_pending();
         continue;
       }
       // The spindle is no longer coupled to the position in the thread.
-      if (drilling || (coupled_threads_ && command_.kind == CommandKind::thread))
+      const bool in_thread = !restart_passed_ || (restart_in_thread_ && command_.number == 0);
+      if (drilling || (coupled_threads_ && command_.kind == CommandKind::thread && in_thread))
         return fail(language::AlarmNumber::not_resumable);
       search_ = Search::none;
       // A drive that lost its newest cycles repeats the skip moves in them: their results are void.
       drop_later_results();
+      const auto& modal = restart_passed_ ? executing_ : command_.modal;
       modals_.clear();
-      modals_.add(0, command_.modal);
-      motion_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
+      modals_.add(0, modal);
+      motion_->start(entry_.restart.position, modal.transformation, modal.tool_length);
     }
     if (command_.modal.frame != frame_) frames_.add(command_.sequence, interpreter_.frame_of(command_));
     frame_ = command_.modal.frame;
@@ -452,6 +413,10 @@ FlowState ProgramFlow::fill(bool single_block) {
     const bool continues = coupled && command_.number == 0;
     const bool move =
         is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke || (thread && !coupled);
+    if (!tap_in_hole_.empty() && !tapping_ && moves_axes(command_.kind))
+      return fail(language::AlarmNumber::tap_removal_thread,
+                  fmt::format("{}: {}", language::alarm_text(language::AlarmNumber::tap_removal_thread),
+                              tap_in_hole_));
     if (std::exchange(behind_thread_, false) && continues)
       return fail_search("the line continues a thread: start before the first block of it");
     if (threading_ && !continues && !(coupled && legs_.empty())) {

@@ -79,6 +79,9 @@ class ProgramFlow {
   /// Names of the axes that have no reference: a move, a turn of the spindle and a tool change are then
   /// alarms. Empty: all have theirs.
   void set_without_reference(std::string_view axes) { without_reference_.assign(axes); }
+  /// What the operator is told of a tap that is in its hole, where the axes are at the start: then no move
+  /// but its removal may begin. Empty: there is none, or it has come out.
+  void set_tap_in_hole(std::string words) { tap_in_hole_ = std::move(words); }
   /// As Interpreter::set_homed().
   void set_homed(std::optional<std::uint16_t> axes) { interpreter_.set_homed(axes); }
 
@@ -113,6 +116,8 @@ class ProgramFlow {
   FlowState push_pending();
   /// The pending command cannot be carried out: FlowState::alarm.
   void refuse_pending(language::AlarmNumber number);
+  /// `why` follows the text of the alarm.
+  void refuse_pending(language::AlarmNumber number, const std::string& why);
   /// Rigid tapping has started or ended: strokes and the dwells between them are moves meanwhile.
   void set_tapping(bool tapping) { tapping_ = tapping, tap_speed_ = 0; }
   /// The highest speed of the spindle in the strokes that motion has got since, 1/min.
@@ -205,6 +210,8 @@ class ProgramFlow {
   FlowState ask_guard(const AxisValues& from);
   FlowState take_step(language::Step step);
   FlowState take_leg();
+  /// Nothing of a stroke or a thread is left to do at the restart point: the search passes it.
+  bool pass_done(bool drilling);
   FlowState arrive_at_line();
   FlowState fail(const machine::AlarmDefinition& alarm, const std::string& text);
   FlowState fail(language::AlarmNumber number, std::string_view text);
@@ -233,6 +240,8 @@ class ProgramFlow {
   std::uint32_t block_line_ = 0;
   Entry entry_;
   Search search_ = Search::none;
+  bool restart_passed_ = false;     // the stroke or thread of the restart point is done
+  bool restart_in_thread_ = false;  // and what continues it would be the same thread
   bool tapping_ = false, in_hole_ = false, text_missing_ = false;
   double tap_speed_ = 0;
   bool coupled_threads_ = false, threading_ = false, thread_complete_ = false;
@@ -242,7 +251,7 @@ class ProgramFlow {
   std::uint64_t lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   AxisValues place_{};        // where the newest motion ends
   AxisValues home_target_{};  // of the newest search for references
-  std::string without_reference_;
+  std::string without_reference_, tap_in_hole_;
   std::vector<SkipResult> skips_;
   std::size_t skips_read_ = 0;
   double values_read_ = 0;   // of the equal values that the next result is

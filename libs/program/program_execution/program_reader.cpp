@@ -140,7 +140,8 @@ void ProgramReader::begin_tapping(const Command& stroke) {
     const auto& spindle = machine_->tapping_spindle(stroke.number);
     if (!spindle.axis) return flow_.refuse_pending(language::AlarmNumber::tapping_spindle_missing);
     tapping_.begin(motion_->position(), stroke);
-    motion_->set_limits(tapping_.limits(machine_->limits(), spindle.acceleration));
+    const double speed = Tapping::fastest(stroke, spindle.highest_speed);
+    motion_->set_limits(tapping_.limits(machine_->limits(), spindle.acceleration_up_to(speed)));
   } else {
     tapping_.begin(motion_->position(), stroke);
   }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 
 namespace trunnion::program_execution {
 namespace {
@@ -43,12 +44,19 @@ double TapInHole::depth(const language::AxisValues& position) const {
   return inside > least_depth && square < beside * beside ? inside : 0;
 }
 
+std::string TapInHole::words(double depth) const {
+  char text[96];
+  std::snprintf(text, sizeof text, "%s-hand thread, lead %.6g mm, %.3f mm deep", lead < 0 ? "left" : "right",
+                std::abs(lead), depth);
+  return text;
+}
+
 bool TapInHole::contradicts(const language::AxisValues& from, const language::AxisValues& to,
                             double stroke_lead) const {
   if (!(depth(from) > 0)) return false;
   const auto way = difference(to, from);
   const double length = std::sqrt(product(way, way));
-  const bool out = product(way, direction) <= -in_line * length;
+  const bool out = length > least_depth && product(way, direction) <= -in_line * length;
   // The same helix the other way round.
   const bool same_thread = std::abs(stroke_lead + lead) <= lead_tolerance * std::abs(lead);
   return !out || !same_thread;

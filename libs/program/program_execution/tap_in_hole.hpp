@@ -2,6 +2,8 @@
 // The tap that is in its hole, or was left there: what its removal is compared with.
 #pragma once
 
+#include <string>
+
 #include "language/canonical.hpp"
 
 namespace trunnion::program_execution {
@@ -16,7 +18,11 @@ struct TapInHole {
   static TapInHole of(double lead, const language::AxisValues& from, const language::AxisValues& to);
   /// How deep the tap is in the hole when the axes are at `position`, mm; 0 before the hole and beside it.
   double depth(const language::AxisValues& position) const;
-  /// From inside, a stroke with `stroke_lead`, a Command::value, would not follow the thread out.
+  /// For the operator, of a tap that is `depth` mm in its hole: "right-hand thread, lead 1.25 mm, 6.500 mm
+  /// deep".
+  std::string words(double depth) const;
+  /// From inside, a stroke with `stroke_lead`, a Command::value, would not follow the thread out. One of U V
+  /// W does not either: what moved the tap in was X, Y or Z.
   bool contradicts(const language::AxisValues& from, const language::AxisValues& to,
                    double stroke_lead) const;
 

@@ -9,6 +9,8 @@ namespace {
 
 /// Revolutions by which the parts of a leg may be longer than the leg: rounding.
 constexpr double no_turn = 1e-9;
+/// The fraction of a leg before whose end the tool is, or beyond which it does not come.
+constexpr double nearly_done = 1 - 1e-9;
 
 double farthest_way(const AxisValues& from, const AxisValues& to) {
   double farthest = 0;
@@ -67,6 +69,7 @@ language::Command thread_line(language::Command thread, const AxisValues& from) 
 ThreadPath::Fault ThreadPath::build(const AxisValues& start, std::span<const ThreadLeg> legs, double speed,
                                     bool clockwise, const motion::Limits& limits) {
   origin_ = 0;
+  whole_ = true;
   highest_share_ = speed_margin;
   clockwise_ = clockwise;
   const double rate = speed_margin * speed / 60;  // rev/s
@@ -161,12 +164,13 @@ ThreadPlace ThreadPath::at(double angle) const {
   out.leg = pieces_.size() - 1;
   if (now >= nodes_.back().place + nodes_.back().half) {
     out.position = end_;
-    out.fraction = 1;
+    out.fraction = whole_ ? 1 : nearly_done;
     return out;
   }
   while (out.leg > 0 && now < pieces_[out.leg].begin) --out.leg;
   const Piece& here = pieces_[out.leg];
-  out.fraction = here.revolutions > 0 ? std::clamp((now - here.begin) / here.revolutions, 0.0, 1.0) : 1;
+  out.fraction = here.revolutions > 0 ? std::clamp((now - here.begin) / here.revolutions, 0.0, nearly_done)
+                                      : nearly_done;
   // The pitch line before the node that acts here, if one does, and what the node adds.
   std::size_t i = out.leg;
   if (now > nodes_[i + 1].place - nodes_[i + 1].half) ++i;
@@ -202,6 +206,7 @@ void ThreadPath::brake_from(double angle) {
     pieces_[0].begin = now;
     pieces_[0].revolutions = 0;
     end_ = start();
+    whole_ = false;
     return;
   }
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -225,6 +230,7 @@ void ThreadPath::brake_from(double angle) {
     nodes_.resize(i + 2);
     nodes_.back() = stop;
     nodes_.back().half = std::min(stop.half, place - from);
+    whole_ = false;
     return;
   }
 }

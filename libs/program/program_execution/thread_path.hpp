@@ -35,7 +35,7 @@ struct ThreadPlace {
   AxisValues position{};
   AxisValues velocity{};  ///< mm per revolution in the spindle's direction
   std::size_t leg = 0;
-  double fraction = 0;  ///< of the leg's revolutions that are done
+  double fraction = 0;  ///< of the leg's revolutions that are done; 1 only at rest at the end of the thread
 };
 
 /// Where the velocity has to change, at the start, at the end and between two legs, it changes smoothly over
@@ -45,8 +45,9 @@ struct ThreadPlace {
 class ThreadPath {
  public:
   static constexpr std::size_t most_legs = 64;
-  /// Axes keep to their acceleration and jerk up to this times S.
-  static constexpr double speed_margin = 1.5;
+  /// Axes keep to their acceleration and jerk up to this times S: to the highest override, 1.5, and what the
+  /// spindle may be too fast.
+  static constexpr double speed_margin = 1.6;
 
   enum class Fault : std::uint8_t {
     none,
@@ -114,6 +115,7 @@ class ThreadPath {
   double origin_ = 0, highest_share_ = speed_margin;
   std::size_t faulty_leg_ = 0;
   bool clockwise_ = true;
+  bool whole_ = true;  // it was not braked
 };
 
 }  // namespace trunnion::program_execution

@@ -94,6 +94,14 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
     out.push_back({"ends", f.ends && row + 1 == f.count});
     out.push_back({"line", row < f.lines.size() ? f.lines[row] : 0});
   };
+  const auto coupled = [&](const auto& f) {
+    if (row < f.turning_radius.size()) out.push_back({"turning_radius", f.turning_radius[row]});
+    if (row >= f.spindle.size()) return;
+    out.push_back({"spindle_axis", f.spindle_axis});
+    out.push_back({"spindle", f.spindle[row]});
+    if (f.follows_spindle) out.push_back({"follows_spindle", true});
+  };
+  const std::size_t spindles = feedback_.spindle_speed.size();
   switch (kind_) {
     case Kind::path:
       batch(path_);
@@ -101,6 +109,7 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
       out.push_back({"tool_length", path_.tool_length});
       for (std::size_t i = 0; i < path_width; ++i)
         out.push_back({std::string("setpoint.") + path_letters[i], path_.setpoints[row * path_width + i]});
+      coupled(path_);
       if (row + 1 == path_.count) states_of(path_, out);
       break;
     case Kind::axis:
@@ -108,6 +117,7 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
       for (std::size_t i = 0; i < axis_.axes.size(); ++i)
         out.push_back(
             {"setpoint.axis" + std::to_string(axis_.axes[i]), axis_.setpoints[row * axis_.axes.size() + i]});
+      coupled(axis_);
       if (row + 1 == axis_.count) states_of(axis_, out);
       break;
     case Kind::feedback:
@@ -118,6 +128,10 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
       for (std::size_t i = 0; i < feedback_.axis_count; ++i)
         out.push_back(
             {"actual[" + std::to_string(i) + "]", feedback_.actual[row * feedback_.axis_count + i]});
+      if ((row + 1) * spindles > feedback_.spindle_angle.size()) break;
+      for (std::size_t i = 0; i < spindles; ++i)
+        out.push_back(
+            {"spindle_angle[" + std::to_string(i) + "]", feedback_.spindle_angle[row * spindles + i]});
       break;
     case Kind::other:
       flatten("", other_, out);
@@ -126,24 +140,13 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
 }
 
 void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) const {
-  const auto coupled = [&](const auto& batch) {
-    if (row < batch.turning_radius.size()) out.push_back({"turning_radius", batch.turning_radius[row]});
-    if (row >= batch.spindle.size()) return;
-    out.push_back({"spindle_axis", batch.spindle_axis});
-    out.push_back({"spindle", batch.spindle[row]});
-    if (batch.follows_spindle) out.push_back({"follows_spindle", true});
-  };
   const auto indexed = [&](const char* name, const auto& values, std::size_t first, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
       out.push_back({std::string(name) + "[" + std::to_string(i) + "]", values[first + i]});
   };
-  if (kind_ == Kind::path) coupled(path_);
-  if (kind_ == Kind::axis) coupled(axis_);
   if (kind_ != Kind::feedback) return;
   const auto& f = feedback_;
   const std::size_t spindles = f.spindle_speed.size();
-  if ((row + 1) * spindles <= f.spindle_angle.size())
-    indexed("spindle_angle", f.spindle_angle, row * spindles, spindles);
   if (row + 1 != rows_) return;
   indexed("spindle_speed", f.spindle_speed, 0, spindles);
   indexed("spindle_oriented", f.spindle_oriented, 0, f.spindle_oriented.size());
@@ -151,6 +154,11 @@ void MessageRows::append_uncompared(std::size_t row, std::vector<Field>& out) co
     const auto place = "[" + std::to_string(i) + "]";
     out.push_back({"spindle_condition" + place, bus::to_string(f.spindles[i].condition)});
     out.push_back({"spindle_reference" + place, f.spindles[i].reference});
+    out.push_back({"spindle_homed" + place, f.spindles[i].homed ? 1 : 0});
+    out.push_back({"spindle_gear" + place, f.spindles[i].gear});
+    out.push_back({"spindle_master" + place, f.spindles[i].master});
+    out.push_back({"spindle_synchronization_error" + place, f.spindles[i].synchronization_error});
+    out.push_back({"spindle_correction" + place, f.spindles[i].correction});
   }
   indexed("velocity", f.velocity, 0, f.velocity.size());
   indexed("torque", f.torque, 0, f.torque.size());

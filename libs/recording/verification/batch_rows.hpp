@@ -43,7 +43,7 @@ class MessageRows {
   std::size_t rows() const { return rows_; }
   /// The values of one row: setpoints are named by their axis, sequences by their index.
   void fields(std::size_t row, std::vector<Field>& out) const;
-  /// Appends what comparisons leave out: the spindles, and what a batch of feedback tells of its last row.
+  /// Appends what comparisons leave out: what a batch of feedback tells of its last row.
   void append_uncompared(std::size_t row, std::vector<Field>& out) const;
 
  private:

@@ -31,14 +31,18 @@ bool is(const StoredMessage& message, const char* handle, T& value) {
   return message.topic->handle == handle && bus::decode(message.cdr, value);
 }
 
-// The angle is shown in hundredths of a degree, from 0 up to 359.99.
+// The angle is shown in hundredths of a degree, from 0 up to 359.99, speeds in hundredths of 1/min, the
+// synchronization error in thousandths of a degree.
 Json shown(const idl::stream::SpindleState& spindle) {
   const auto turn = spindle.angle - std::floor(spindle.angle);
   return {{"condition", bus::to_string(spindle.condition)},
           {"homed", spindle.homed},
           {"angle", std::fmod(std::round(turn * 36000), 36000) / 100},
           {"gear", spindle.gear},
-          {"master", spindle.master}};
+          {"reference", std::round(spindle.reference * 100) / 100},
+          {"master", spindle.master},
+          {"synchronization_error", std::round(spindle.synchronization_error * 360000) / 1000},
+          {"correction", std::round(spindle.correction * 100) / 100}};
 }
 
 }  // namespace

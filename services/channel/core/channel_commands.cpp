@@ -18,6 +18,9 @@ namespace {
 
 // Motion plans every cell for this one.
 static_assert(commands::feed_override.maximum == motion::highest_override);
+// A tap keeps to the acceleration of the spindle with this one, and a thread is not broken off.
+static_assert(commands::spindle_override.maximum == Tapping::highest_override);
+static_assert(commands::spindle_override.maximum < ThreadPath::speed_margin);
 
 /// Of an override, to whole percents within its limits.
 double stepped(double override_, double by, const commands::OverrideLimits& limits) {
@@ -36,7 +39,7 @@ Answer ChannelCore::operable() const {
   if (!bodies_.error().empty()) return refuse(alarm::bodies_invalid, bodies_.error());
   if (!recovered_) return refuse(alarm::not_ready, "The drive has not answered yet");
   if (link().drive_mode() == DriveMode::OFF) return refuse(alarm::not_ready, "The drives are off");
-  if (homing_.active() || link().drive_mode() == DriveMode::HOMING)
+  if (homing_.active())
     return refuse(alarm::not_ready,
                   "An axis searches its reference: wait until it has found it, or end it with feed hold");
   return {};
@@ -50,9 +53,12 @@ std::string ChannelCore::names_without_reference() const {
   return names;
 }
 
-// The drive moves nothing while any of its axes has no reference.
+// The drive moves nothing while any of its axes has no reference, or searches it for another channel.
 Answer ChannelCore::startable() const {
   if (auto answer = operable(); !answer.accepted) return answer;
+  if (link().drive_mode() == DriveMode::HOMING)
+    return refuse(alarm::not_ready,
+                  "Another channel searches the reference of an axis: wait until it has found it");
   const auto names = names_without_reference();
   if (names.empty()) return {};
   return refuse(alarm::not_homed,

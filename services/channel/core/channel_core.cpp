@@ -116,12 +116,17 @@ AxisValues ChannelCore::drive_position() const {
   return position;
 }
 
+AxisValues ChannelCore::path_of_drive(const AxisValues& real) const {
+  auto path = real;
+  for (std::size_t i = 0; i < path.size(); ++i) path[i] -= manual_.offset()[i];
+  return path;
+}
+
 // Where a new epoch begins: at the position the drive reports.
 void ChannelCore::adopt_position() {
   if (!link().needs_epoch()) return;
   const auto real = drive_position();
-  auto path = real;
-  for (std::size_t i = 0; i < path.size(); ++i) path[i] -= manual_.offset()[i];
+  const auto path = path_of_drive(real);
   machine_start_ = lock_.show(path, machine_start_);
   lock_.adopt(real);
 }
@@ -133,6 +138,7 @@ void ChannelCore::stop_activity() {
   if (states_.busy() && stream_.idle() && !link().needs_epoch() && moved) machine_start_ = machine_position();
   skip_.end();
   read_.end();
+  spindles_.end();
   program_homing_.end();
   finish_tapping();
   finish_thread();
@@ -154,6 +160,7 @@ void ChannelCore::finish(bool program_end) {
   const bool reset = states_.resetting();
   skip_.end();
   read_.end();
+  spindles_.end();
   program_homing_.end();
   finish_tapping();
   finish_thread();

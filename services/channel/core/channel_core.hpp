@@ -5,6 +5,7 @@
 // Homing and StreamWriter: motion. AuxiliaryHandshake, TableChange and CycleCall: what is asked of others.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <set>
@@ -40,6 +41,7 @@
 #include "program_selection.hpp"
 #include "skip_move.hpp"
 #include "spindle_read.hpp"
+#include "spindle_watch.hpp"
 #include "stream_writer.hpp"
 #include "switches.hpp"
 #include "table_change.hpp"
@@ -174,8 +176,8 @@ class ChannelCore {
   // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and the state of the
   // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, skip_, read_,
   // exact_stop_, tapping_, thread_, program_homing_, homed_at_start_, restart_, recovered_, variables_news_,
-  // events_. No fields, they are made again: program_path_, manual_path_, program_cache_, bodies_, unusable_,
-  // state_.
+  // events_. No field, feedback tells it: spindles_. No fields, they are made again: program_path_,
+  // manual_path_, program_cache_, bodies_, unusable_, state_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("link", self.stream_.link()), visit("handshake", self.handshake_),
@@ -193,6 +195,7 @@ class ChannelCore {
     constexpr bool reads = !std::is_const_v<Self>;
     if (reads || self.tool_since_ != 0) visit("tool_since", self.tool_since_);
     if (reads || self.tap_.lead != 0) visit("tap", self.tap_);
+    if (reads || self.synchronized_ != 0) visit("synchronized", self.synchronized_);
   }
 
  private:
@@ -247,6 +250,7 @@ class ChannelCore {
   // channel_recovery.cpp: what the drive stopped, lost or kept.
   void interrupt(const std::string& why);
   void offer_interrupted();
+  std::string with_tap(const std::string& what) const;
 
   // channel_core.cpp
   void stop_activity();
@@ -273,6 +277,9 @@ class ChannelCore {
   // channel_requests.cpp: what a program asks of the rest of the control.
   void run_pending(FlowState state);
   void execute(const language::Command& command);
+  /// "part.nc:12", of a called program "part.nc:O0020:3": where a command is.
+  std::string place_of(const language::Command& command) const;
+  std::string message_of(const language::Command& command) const;
   std::uint8_t role() const;
   void change_table(const language::Command& command);
   void count_part();
@@ -288,8 +295,14 @@ class ChannelCore {
   void begin_read(const language::Command& command);
   bool finish_read();
   void begin_tapping();
+  bool may_couple(const channel_setup::TappingSpindle& spindle, const language::Command& stroke,
+                  std::size_t column);
+  std::size_t column_of(const channel_setup::TappingSpindle& spindle) const;
   void finish_tapping();
   double tapping_override() const;
+  std::string tap_words(const AxisValues& position) const;
+  Answer refuse_with_tap(const std::string& words) const;
+  void forget_removed_tap();
   void begin_thread();
   void cut_thread();
   StreamCycle step_thread(std::uint64_t cycle);
@@ -299,6 +312,9 @@ class ChannelCore {
   void begin_program_homing(const language::Command& command);
   void home_next();
   void advance_program_homing();
+  bool has_home_switch(std::uint16_t axis) const;
+  /// Logical numbers of the slaves that move with the axis.
+  std::vector<std::uint16_t> coupled_slaves(std::uint16_t axis) const;
   void note_found(std::uint16_t axis);
   void end_program_homing();
   void tell_references();
@@ -339,6 +355,7 @@ class ChannelCore {
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;
   AxisValues drive_position() const;
+  AxisValues path_of_drive(const AxisValues& real) const;
   std::string program_name() const { return states_.is(Activity::program) ? selected().name : "MDI"; }
   const idl::program::ProgramEntry& selected() const { return selection_.selected(); }
   void event(const machine::AlarmDefinition& alarm, std::string text) {
@@ -367,6 +384,8 @@ class ChannelCore {
   ChannelBodies bodies_;
   SkipMove skip_;
   SpindleRead read_;
+  std::uint32_t synchronized_ = 0;  // spindles of the newest feedback, as synchronized_spindles()
+  SpindleWatch spindles_;
   ExactStopCheck exact_stop_;
   Tapping tapping_;
   ThreadRun thread_;

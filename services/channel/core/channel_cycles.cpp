@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves that are more than a path: those a skip input ends, those a spindle follows, and those that follow
 // one. Values of spindles, behind a wait.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/axes.hpp"
 
 namespace trunnion::channel {
+namespace {
+
+std::string speed_words(double speed) { return std::to_string(std::lround(speed)) + " 1/min"; }
+
+}  // namespace
 
 // The axes are at rest, and nothing is read ahead before the move has ended.
 void ChannelCore::begin_skip() {
@@ -47,28 +57,84 @@ void ChannelCore::begin_tapping() {
     flow().refuse_pending(language::AlarmNumber::tapping_spindle_missing);
     return;
   }
-  const auto& stroke = flow().pending();
-  const auto from = path().machine_position(), to = path().machine_of(stroke.target);
-  if (stroke.out && tap_.contradicts(from, to, stroke.value)) {
-    flow().refuse_pending(language::AlarmNumber::tap_removal_thread);
+  // A part may hold both: the path would turn one of them alone.
+  const auto column = column_of(spindle);
+  if (((synchronized_ >> column) & 1u) != 0) {
+    flow().refuse_pending(language::AlarmNumber::tapping_spindle_synchronized);
     return;
   }
+  const auto& stroke = flow().pending();
+  const auto from = path().machine_position(), to = path().machine_of(stroke.target);
+  const auto tap = tap_words(from);
+  if (!tap.empty() && (!stroke.out || tap_.contradicts(from, to, stroke.value))) {
+    flow().refuse_pending(language::AlarmNumber::tap_removal_thread, tap);
+    return;
+  }
+  if (!may_couple(spindle, stroke, column)) return;
   if (!stroke.out) tap_ = program_execution::TapInHole::of(stroke.value, from, to);
-  tapping_.begin(path().position(), stroke);
-  path().trajectory().set_limits(tapping_.limits(manual_.path_limits(), spindle.acceleration));
+  const double fastest = Tapping::fastest(stroke, spindle.highest_speed);
+  tapping_.begin(path().position(), stroke, spindle.highest_speed_in(spindles_.gear(column)));
+  path().trajectory().set_limits(tapping_.limits(manual_.path_limits(), spindle.acceleration_up_to(fastest)));
   path().restart();
   flow().set_tapping(true);
 }
 
+// False: it is refused, or the feedback has to tell more before.
+bool ChannelCore::may_couple(const channel_setup::TappingSpindle& spindle, const language::Command& stroke,
+                             std::size_t column) {
+  const auto name = machine::spindles(*parameters_).at(column).name;
+  const auto rest = spindles_.rest(column);
+  if (rest == SpindleWatch::Rest::waits) return false;
+  if (rest == SpindleWatch::Rest::turns) {
+    flow().refuse_pending(language::AlarmNumber::tapping_spindle_turns,
+                          name + " turns at " + speed_words(spindles_.speed(column)) +
+                              ". Stop this spindle: M5 may have been that of another one");
+    return false;
+  }
+  const auto gear = spindles_.gear(column);
+  const double highest = spindle.highest_speed_in(gear), wanted = fastest_stroke(stroke);
+  if (highest == 0 || wanted <= highest) return true;
+  auto why = "the tap needs " + speed_words(wanted) + ", " + name + " has at most " + speed_words(highest);
+  if (gear > 0) why += " in gear " + std::to_string(gear);
+  why += spindle.by_gears || highest < spindle.highest_speed ? " (10a985)" : " (10a948)";
+  flow().refuse_pending(language::AlarmNumber::spindle_speed_above, why);
+  return false;
+}
+
+// The column of the feedback.
+std::size_t ChannelCore::column_of(const channel_setup::TappingSpindle& spindle) const {
+  const int column = machine::column_of(machine::spindles(*parameters_), spindle.axis.value_or(0));
+  return static_cast<std::size_t>(std::max(column, 0));
+}
+
+// Empty: no tap is in its hole with the axes at `position`, in machine coordinates.
+std::string ChannelCore::tap_words(const AxisValues& position) const {
+  const double depth = tap_.depth(position);
+  return depth > 0 ? tap_.words(depth) : std::string();
+}
+
+Answer ChannelCore::refuse_with_tap(const std::string& words) const {
+  return refuse(alarm::tap_removal_thread,
+                "A tap is in its hole: " + words + ". Remove it with G84.9 (NUM: G39+) by MDI, then start");
+}
+
+// A tap that is not in its hole when something starts was removed otherwise. Axes without a reference may be
+// anywhere.
+void ChannelCore::forget_removed_tap() {
+  if (names_without_reference().empty() && tap_words(machine_start_).empty()) tap_ = {};
+}
+
 // The override of the spindle is that of the path it is coupled to.
 double ChannelCore::tapping_override() const {
-  return Tapping::override_of(switches_.spindle_override, flow().tap_speed(),
-                              machine_.tapping_spindle(tapping_.axis()).highest_speed);
+  return Tapping::override_of(switches_.spindle_override, flow().tap_speed(), tapping_.highest_speed());
 }
 
 void ChannelCore::finish_tapping() {
   if (!tapping_.active()) return;
-  if (!(tap_.depth(path().machine_position()) > 0)) tap_ = {};
+  if (!(tap_.depth(path().machine_position()) > 0)) {
+    tap_ = {};
+    flow().set_tap_in_hole({});
+  }
   tapping_.end();
   flow().set_tapping(false);
   path().trajectory().set_limits(manual_.path_limits());
@@ -86,11 +152,7 @@ void ChannelCore::cut_thread() {
   const auto& modal = flow().executing();
   const auto& settings = machine_.stream(virtual_time_);
   ThreadSpindle spindle;
-  const auto number = machine_.tapping_spindle().axis.value_or(0);
-  for (const auto& one : machine::spindles(*parameters_)) {
-    if (one.number == number) break;
-    ++spindle.column;
-  }
+  spindle.column = column_of(machine_.tapping_spindle());
   spindle.speed = modal.spindle_speed;
   spindle.clockwise = modal.spindle_direction == language::SpindleDirection::cw;
   spindle.cycle_seconds = machine_.cycle_seconds();

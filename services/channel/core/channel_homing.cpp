@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Axes that a program or an MDI line homes (G28.2): one after the other, by the search of the drive that mode
 // REF has, too.
+#include <algorithm>
+
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/gantry_pairs.hpp"
+#include "machine/parameter_constants.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -56,10 +59,38 @@ void ChannelCore::begin_program_homing(const language::Command& command) {
   home_next();
 }
 
-// An axis whose encoder knows its position and that has no home switch has nothing to search.
+// Of the axis, or of a slave that moves with it.
+bool ChannelCore::has_home_switch(std::uint16_t axis) const {
+  const auto has = [this](std::uint16_t number) {
+    return parameters_->integer(parameter::homing_direction, number) != 0;
+  };
+  if (has(axis)) return true;
+  const auto slaves = coupled_slaves(axis);
+  return std::any_of(slaves.begin(), slaves.end(), has);
+}
+
+std::vector<std::uint16_t> ChannelCore::coupled_slaves(std::uint16_t axis) const {
+  std::vector<std::uint16_t> slaves;
+  for (const auto& pair : machine::gantry_pairs(*parameters_, number_))
+    if (pair.master == axis && !link().taken_off(static_cast<std::size_t>(pair.slave_column)))
+      slaves.push_back(pair.slave);
+  return slaves;
+}
+
+// An axis whose encoder knows its position and that has no home switch has nothing to search. When the
+// encoder does not know it, the drive would take the place where the axis is: that is for a person who sees
+// it.
 void ChannelCore::home_next() {
   while (const auto axis = program_homing_.next()) {
     const auto number = logical_axis(machine_.channel_axes(), *axis);
+    if (!homing_.referenced(number) && !has_home_switch(number)) {
+      event(alarm::homing_failed, program_name() + ":" + std::to_string(flow().main_line()) + ": axis " +
+                                      std::string(1, canonical::axis_letters[*axis]) +
+                                      " was not homed: it has no home switch. A reference return in mode REF "
+                                      "makes the place where it is its reference position");
+      stop_activity();
+      return;
+    }
     if (homing_.needed(number, parameters_.get())) {
       homing_.begin(number, search_speed(flow().pending(), *axis));
       advance_homing();
@@ -97,11 +128,10 @@ void ChannelCore::advance_program_homing() {
     home_next();
 }
 
-// Slaves are homed with their master.
+// Slaves are homed with their master, but for those that are taken off.
 void ChannelCore::note_found(std::uint16_t axis) {
   homing_.note_found(axis);
-  for (const auto& pair : machine::gantry_pairs(*parameters_, number_))
-    if (pair.master == axis) homing_.note_found(pair.slave);
+  for (const auto slave : coupled_slaves(axis)) homing_.note_found(slave);
   tell_references();
 }
 

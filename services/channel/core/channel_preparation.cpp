@@ -70,6 +70,11 @@ void ChannelCore::prepare_entry() {
     give_up();
     return;
   }
+  if (const auto tap = tap_words(machine_start_); !tap.empty() && !preparation.moves.empty()) {
+    event(alarm::tap_removal_thread, place + refuse_with_tap(tap).reason);
+    give_up();
+    return;
+  }
   if (const auto obstacle = approach_obstacle(preparation.moves); !obstacle.empty()) {
     event(alarm::bodies_would_meet, place + "on the approach " + obstacle);
     give_up();
@@ -164,6 +169,8 @@ Answer ChannelCore::continue_after_suspension() {
   preparation.moves = approach_moves(machine_start_, suspended.machine, suspended.progress.executed.line);
   if (const auto error = approach_error(machine_, machine_start_, preparation.moves); !error.empty())
     return refuse(alarm::travel_limit, "On the return to line " + error);
+  if (const auto tap = tap_words(machine_start_); !tap.empty() && !preparation.moves.empty())
+    return refuse_with_tap(tap);
   if (const auto obstacle = approach_obstacle(preparation.moves); !obstacle.empty())
     return refuse(
         alarm::bodies_would_meet,

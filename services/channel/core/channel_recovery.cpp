@@ -13,6 +13,8 @@ void ChannelCore::on_feedback(const idl::stream::Feedback& feedback) {
   skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
   exact_stop_.on_feedback(feedback);
   thread_.on_feedback(feedback);
+  synchronized_ = synchronized_spindles(feedback);
+  spindles_.on_feedback(feedback);
   if (read_.active()) read_.on_feedback(feedback, motion_at_rest() && link.executed() >= link.next());
   remember_executed();
   if (first) handshake_.continue_numbers(link.epoch()), cycle_call_.continue_numbers(link.epoch());
@@ -61,12 +63,12 @@ void ChannelCore::interrupt(const std::string& why) {
       stop_activity();
       states_.interrupt(off);
       if (reset) drop_offset();
-      event(alarm::interrupted, why);
+      event(alarm::interrupted, with_tap(why));
       return;
     }
   }
   states_.interrupt(off);
-  if (states_.busy()) event(alarm::interrupted, why);
+  if (states_.busy()) event(alarm::interrupted, with_tap(why));
 }
 
 void ChannelCore::recover() {
@@ -104,9 +106,15 @@ void ChannelCore::recover() {
   states_.begin_interrupted();
   interrupted_ = {};
   progress_.executed.line = own->line;
-  event(alarm::interrupted, "Program " + selected().name + " was interrupted in line " +
-                                std::to_string(own->line) +
-                                (own->in_thread ? ", in a thread: retract the tool and reset" : ""));
+  const auto line = "Program " + selected().name + " was interrupted in line " + std::to_string(own->line);
+  const bool in_thread = own->in_thread && own->fraction < 1;
+  event(alarm::interrupted, with_tap(line + (in_thread ? ", in a thread: retract the tool and reset" : "")));
+}
+
+// What the operator has to know before the axes move again.
+std::string ChannelCore::with_tap(const std::string& what) const {
+  const auto tap = tap_words(path_of_drive(drive_position()));
+  return tap.empty() ? what : what + "; a tap is in its hole: " + tap;
 }
 
 // After a power failure only the line is known: the operator decides whether to start from it.
@@ -115,7 +123,10 @@ void ChannelCore::offer_interrupted() {
   const auto where = "Program " + interrupted_.name + " was in line " + std::to_string(interrupted_.line) +
                      " when the control was switched off";
   if (selection_.select(interrupted_)) {
-    event(alarm::switched_off_in_program, where + ": it can be started from there");
+    const auto told = with_tap(where);
+    event(alarm::switched_off_in_program,
+          told == where ? where + ": it can be started from there"
+                        : told + ". Remove it with G84.9 (NUM: G39+) by MDI, then start from there");
     return;
   }
   event(alarm::switched_off_in_program, where + ", and has been changed or deleted since");

@@ -7,6 +7,7 @@
 #include "canonical/turning_speed.hpp"
 #include "channel_core.hpp"
 #include "language/codes.hpp"
+#include "language/macro_call.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/roles.hpp"
 
@@ -95,6 +96,19 @@ void ChannelCore::change_table(const language::Command& command) {
                                                       std::to_string(flow().main_line()) + " of " + channel);
 }
 
+// As in the alarms of the interpreter.
+std::string ChannelCore::place_of(const language::Command& command) const {
+  auto place = program_name() + ":";
+  if (command.program != 0) place += std::string(language::ProgramName(command.program).view()) + ":";
+  return place + std::to_string(command.line);
+}
+
+// The command is the newest that the interpreter has given, so the text behind $ is that of its line.
+std::string ChannelCore::message_of(const language::Command& command) const {
+  if (command.number == language::line_message) return std::string(flow().interpreter().message_text());
+  return "message " + std::to_string(command.number) + ", see the comment of the line";
+}
+
 void ChannelCore::execute(const language::Command& command) {
   switch (command.kind) {
     case language::CommandKind::transformation:
@@ -128,11 +142,7 @@ void ChannelCore::execute(const language::Command& command) {
       begin_cycle(command);
       return;
     case language::CommandKind::message:
-      event(alarm::program_message,
-            program_name() + ":" + std::to_string(command.line) +
-                (command.number == language::line_message
-                     ? ": see the text behind $ of the line"
-                     : ": message " + std::to_string(command.number) + ", see the comment of the line"));
+      event(alarm::program_message, place_of(command) + ": " + message_of(command));
       flow().finish_pending();
       return;
     case language::CommandKind::tool:
@@ -175,8 +185,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   const auto outcome = handshake_.finish(done);
   if (outcome == AuxiliaryHandshake::Outcome::not_open) return;
   if (outcome == AuxiliaryHandshake::Outcome::failed) {
-    event(alarm::auxiliary_refused, program_name() + ":" + std::to_string(flow().pending().line) +
-                                        ": the PLC did not carry out " + function +
+    event(alarm::auxiliary_refused, place_of(flow().pending()) + ": the PLC did not carry out " + function +
                                         ". Check the machine, then reset");
     stop_activity();
     return;
@@ -211,7 +220,7 @@ void ChannelCore::count_part() {
 void ChannelCore::on_table_changed(const std::string& reason) {
   if (!table_change_.finish()) return;
   if (!reason.empty()) {
-    event(alarm::table_refused, program_name() + ":" + std::to_string(flow().pending().line) + ": " + reason);
+    event(alarm::table_refused, place_of(flow().pending()) + ": " + reason);
     stop_activity();
     return;
   }

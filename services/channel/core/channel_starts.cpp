@@ -28,8 +28,10 @@ Answer ChannelCore::start_program(const Entry& entry) {
   selection_.renew();
   apply_parameters();
   adopt_position();
+  forget_removed_tap();
   skip_.end();
   read_.end();
+  spindles_.end();
   finish_tapping();
   finish_thread();
   auto& text = program_cache_.open(selected());
@@ -37,6 +39,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   program_path_.start(machine_start_);
   mdi_.forget_frames();
   configure_flow(program_flow_);
+  program_flow_.set_tap_in_hole(tap_words(machine_start_));
   if (restart.sequence == 0) homed_at_start_ = homed_axes();
   program_flow_.set_homed(homed_at_start_);
   program_flow_.start(program_path_.trajectory(), text, program_start_, power_on_modal(), *variables_, entry);
@@ -53,6 +56,9 @@ Answer ChannelCore::start_from_line(std::uint32_t line) {
   if (!states_.in<Idle>()) return refuse(alarm::request_invalid, "The channel is busy");
   if (auto answer = startable(); !answer.accepted) return answer;
   if (selected().name.empty()) return refuse(alarm::program_missing, "No program is selected");
+  // The approach would tear it out.
+  adopt_position();
+  if (const auto tap = tap_words(machine_start_); !tap.empty()) return refuse_with_tap(tap);
   // The last line need not end with a line feed.
   if (!(line >= 1 && line <= selected().lines + 1))
     return refuse(alarm::search_failed, "Program " + selected().name + " has lines 1 to " +
@@ -77,6 +83,7 @@ Answer ChannelCore::start_mdi(const idl::channel::ChannelRequest& request) {
   if (auto answer = operable(); !answer.accepted) return answer;  // the line may home the axes
   apply_parameters();
   adopt_position();
+  forget_removed_tap();
   mdi_.enter(request);
   begin_manual(Activity::mdi);
   mdi_.set_tool(tool_);

@@ -37,9 +37,12 @@ std::string ChannelCore::detail() const {
   if (cycle_call_.open()) return "waits for the measurement of the kinematics";
   if (waits_for_text()) return "waiting for the text of the program";
   if (running && preparing != nullptr && preparing->approaching) return "approaching the program";
+  if (running && stream_.idle() && link().drive_mode() == DriveMode::HOMING && !motion_at_rest())
+    return "waits: another channel searches a reference";
+  if (auto why = running ? thread_.waits_for() : std::string(); !why.empty()) return why;
   if (running && tap_stopped())
     return "the PLC has stopped the tap: it continues when the PLC lets it; reset leaves it where it is";
-  if (running && states_.interpreting() && !tapping_.active() &&
+  if (running && states_.interpreting() && !tapping_.active() && !thread_.cutting() &&
       (executed.rapid ? switches_.rapid_override : switches_.feed_override) == 0)
     return executed.rapid ? "the rapid override is 0 %" : "the feed override is 0 %";
   if (held && states_.retracing()) return "gone back as far as the path is kept; cycle start: forwards";
@@ -48,6 +51,9 @@ std::string ChannelCore::detail() const {
   if (states_.in<Interrupted>() && interlock_.drive_stopped() && !interlock_.holds() &&
       !states_.needs_reset())
     return "the drive has stopped on the path: cycle start continues there";
+  if (const auto tap = states_.in<Idle>() ? tap_words(path_of_drive(drive_position())) : std::string();
+      !tap.empty())
+    return "a tap is in its hole: " + tap + "; G84.9 or G39+ removes it";
   return states_.published() == RunState::HELD ? interlock_.hold() : "";
 }
 

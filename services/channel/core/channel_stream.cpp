@@ -71,7 +71,7 @@ void ChannelCore::advance() {
     if (!motion_at_rest()) {
       if (interlock_.holds())
         states_.pause();
-      else
+      else if (link().drive_mode() != DriveMode::HOMING)  // of another channel, which the drive lets end
         stream_.start();
       return;
     }
@@ -86,7 +86,7 @@ void ChannelCore::advance() {
     } else {
       run_pending(state);
     }
-    if (state == FlowState::loop) return;
+    if (state == FlowState::loop || spindles_.waits()) return;
   }
 }
 
@@ -220,7 +220,7 @@ void ChannelCore::store_state(FlowState state, idl::stream::ChannelSnapshot& out
     point = suspended->progress.point;
     path = &program_path_;
   }
-  s.in_thread = thread_.following();
+  s.in_thread = thread_.following() && point.fraction < 1;
   s.thread_origin = s.in_thread ? thread_.path().origin() : 0;
   s.transformation = path->transformation();
   s.tool_length = path->tool_length();

@@ -57,6 +57,8 @@ std::string Homing::detail(const machine::ChannelAxes& axes, const StreamLink& l
   for (std::size_t i = 0; i < axes.number.size(); ++i)
     if (axes.number[i] == search_->axis) name = canonical::axis_letters[axes.index[i]];
   if (search_->ended) return "axis " + name + " brakes, its homing has ended";
+  if (search_->demanded && link.homing_waits())
+    return "axis " + name + " waits: another channel searches a reference";
   if (search_->demanded && link.search() == ReferenceSearch::MOVES_OFF_SWITCH)
     return "axis " + name + " moves off its home switch";
   return "axis " + name + " searches its reference" + (moves ? "" : ": the feed override is 0 %");

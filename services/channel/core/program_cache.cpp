@@ -4,6 +4,20 @@
 #include <algorithm>
 
 namespace trunnion::channel {
+namespace {
+
+/// Whether the file `stored` is the program `name`, with an extension or without one. O9990.9 is another
+/// program than O9990: an extension begins with a letter.
+bool is_program(std::string_view stored, std::string_view name) {
+  if (!stored.starts_with(name)) return false;
+  const auto extension = stored.substr(name.size());
+  if (extension.empty()) return true;
+  const bool digit = extension.size() > 1 && extension[1] >= '0' && extension[1] <= '9';
+  return extension[0] == '.' && !digit;
+}
+
+}  // namespace
+
 language::TextSource& ProgramCache::open(const idl::program::ProgramEntry& program) {
   subprograms_.clear();
   main_ = std::make_unique<ProgramText>(program);
@@ -12,9 +26,7 @@ language::TextSource& ProgramCache::open(const idl::program::ProgramEntry& progr
 
 language::TextSource* ProgramCache::call(const idl::program::ProgramList& stored, std::string_view name) {
   for (const auto& entry : stored.programs) {
-    const bool matches = entry.name.rfind(name, 0) == 0 &&
-                         (entry.name.size() == name.size() || entry.name[name.size()] == '.');
-    if (!matches) continue;
+    if (!is_program(entry.name, name)) continue;
     subprograms_.push_back(std::make_unique<ProgramText>(entry));
     return subprograms_.back().get();
   }

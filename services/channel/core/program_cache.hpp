@@ -18,8 +18,7 @@ class ProgramCache {
     subprograms_.clear();
   }
   language::TextSource& open(const idl::program::ProgramEntry& program);
-  /// A stored program by the name a call gives it, with or without what follows its first dot; nullptr when
-  /// there is none.
+  /// A stored program by the name a call gives it, with or without its extension; nullptr when there is none.
   language::TextSource* call(const idl::program::ProgramList& stored, std::string_view name);
 
   /// The least role of those who have stored the texts opened since the start; nothing when there are none. A

@@ -2,6 +2,7 @@
 #include "spindle_read.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 #include "canonical/spindle_value.hpp"
 
@@ -34,6 +35,20 @@ double spindle_value(const idl::stream::Feedback& feedback, std::uint32_t number
                  : 0;
   }
   return 0;
+}
+
+std::uint32_t synchronized_spindles(const idl::stream::Feedback& feedback) {
+  using idl::stream::SpindleCondition;
+  std::uint32_t spindles = 0;
+  for (std::size_t slave = 0; slave < feedback.spindles.size(); ++slave) {
+    const auto& state = feedback.spindles[slave];
+    const bool follows = state.condition == SpindleCondition::SPINDLE_SYNCHRONIZING ||
+                         state.condition == SpindleCondition::SPINDLE_SYNCHRONIZED;
+    if (!follows || state.master < 0) continue;
+    spindles |= 1u << slave;
+    spindles |= 1u << static_cast<unsigned>(state.master);
+  }
+  return spindles;
 }
 
 }  // namespace trunnion::channel

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value of a spindle that a program reads at rest: of which feedback it is.
+// A value of a spindle that a program reads at rest: of which feedback it is. Which spindles are
+// synchronized.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,9 @@ namespace trunnion::channel {
 
 /// The state `number` (canonical/spindle_value.hpp) of a spindle; 0 when the drive says nothing of it.
 double spindle_value(const idl::stream::Feedback& feedback, std::uint32_t number);
+
+/// Bit n: spindle n follows another one, or another one follows it.
+std::uint32_t synchronized_spindles(const idl::stream::Feedback& feedback);
 
 /// The value is that of the first feedback with the last cycle of the wait that goes before it, however the
 /// messages travelled.

@@ -6,6 +6,7 @@
 
 namespace trunnion::channel {
 
+using idl::stream::ReferenceSearch;
 using idl::stream::StreamRequestKind;
 
 void StreamLink::on_feedback(const idl::stream::Feedback& feedback) {
@@ -16,6 +17,7 @@ void StreamLink::on_feedback(const idl::stream::Feedback& feedback) {
   const bool counts_again = executed < executed_;
   executed_ = executed;
   positions_ = feedback.position;
+  enabled_ = feedback.enabled;
   // The first feedback of a drive that has just started applies its parameters, and no input that could have
   // switched it off.
   drive_restarted_ = counts_again || (feedback.applied.size() == 1 &&
@@ -38,7 +40,9 @@ void StreamLink::on_feedback(const idl::stream::Feedback& feedback) {
     }
     const bool ours = echo.request == request_ && echo.epoch == epoch_;
     if (ours && mode_ != DriveMode::HELD) resuming_ = false;
-    homing_ = homing_ && (mode_ == DriveMode::HOMING || (!forgotten && echo.request != request_));
+    const bool searches = mode_ == DriveMode::HOMING && (search_ == ReferenceSearch::SEARCHES ||
+                                                         search_ == ReferenceSearch::MOVES_OFF_SWITCH);
+    homing_ = homing_ && (searches || (!forgotten && echo.request != request_));
     switch (state_) {
       case LinkState::requested:
         if (!ours) break;

@@ -32,6 +32,8 @@ class StreamLink {
   void request_homing(std::uint16_t axis, double speed);
   /// It has been demanded, or ended by leave(), and the drive may still move the axis.
   bool homing() const { return homing_; }
+  /// It has been demanded, and the drive searches an axis of another channel before.
+  bool homing_waits() const { return homing_ && answered_ != request_ && mode_ == DriveMode::HOMING; }
   /// Of the newest that the drive has answered.
   idl::stream::ReferenceSearch search() const { return search_; }
   /// A hold of the drive is over.
@@ -72,6 +74,10 @@ class StreamLink {
   /// States of the stages behind the channel at the consistent cut.
   const std::vector<idl::stream::StageState>& states() const { return states_; }
   const std::vector<double>& positions() const { return positions_; }
+  /// The axis in this column is a slave that is taken off its master.
+  bool taken_off(std::size_t column) const {
+    return column < enabled_.size() && (enabled_[column] & 2u) != 0;
+  }
   /// The drive still executes (or holds) a stream of ours that this process did not write.
   bool echo_active() const { return echo_active_; }
   /// The newest feedback is the first of another process of the drive, which has answered nothing yet.
@@ -107,6 +113,7 @@ class StreamLink {
   idl::stream::ChannelSnapshot snapshot_;
   std::vector<idl::stream::StageState> states_;
   std::vector<double> positions_;
+  std::vector<std::uint8_t> enabled_;  // no field: feedback tells it
   std::optional<idl::stream::StreamRequest> outgoing_;
 };
 

@@ -8,9 +8,13 @@
 namespace trunnion::channel {
 namespace {
 
-constexpr double least_share = 0.5;         // of S; the highest is that of the path
+// Of S; the highest is that of the path. With the lowest override the PLC orders half of S, less the part of
+// 1/min, and the spindle may be slower than that.
+constexpr double least_share = 0.45, least_share_of_low_speeds = 0.25;
+constexpr double part_of_order = 1;         // 1/min
 constexpr double standing_rate = 1.0 / 60;  // rev/s
 constexpr double standing_seconds = 1, wrong_seconds = 10;
+constexpr double turns_to_mark = 2;  // in which the index mark must have passed
 
 std::string speed_text(double speed) { return std::to_string(std::lround(speed)) + " 1/min"; }
 
@@ -29,7 +33,9 @@ ThreadPath::Fault ThreadRun::begin(const AxisValues& start, std::span<const Thre
   spindle_ = spindle;
   position_ = start;
   std::fill(rows_.begin(), rows_.end(), Row{});
-  standing_ = wrong_ = 0;
+  standing_ = wrong_ = unmarked_ = 0;
+  turned_ = 0;
+  newest_.reset();
   end();
   phase_ = Phase::waiting;
   return fault;
@@ -70,10 +76,23 @@ bool ThreadRun::homed(std::uint64_t cycle) const {
   return rows_[(cycle - spindle_.lead - fitted) % rows].homed;
 }
 
+double ThreadRun::speed_of(const Prediction& prediction) const {
+  const double speed = prediction.rate / spindle_.cycle_seconds * 60;
+  return spindle_.clockwise ? speed : -speed;
+}
+
 bool ThreadRun::at_speed(const Prediction& prediction) const {
-  const double nominal = spindle_.speed / 60 * spindle_.cycle_seconds;
-  const double share = (spindle_.clockwise ? prediction.rate : -prediction.rate) / nominal;
-  return share >= least_share && share <= path_.highest_share();
+  const double speed = speed_of(prediction), nominal = spindle_.speed;
+  const double least = std::max(least_share * nominal - part_of_order, least_share_of_low_speeds * nominal);
+  return speed >= least && speed <= path_.highest_share() * nominal;
+}
+
+std::string ThreadRun::waits_for() const {
+  if (phase_ != Phase::waiting || !newest_ || !broken_.empty()) return "";
+  if (!at_speed(*newest_))
+    return "the thread waits for the spindle: it turns at " + speed_text(speed_of(*newest_)) + ", S is " +
+           speed_text(spindle_.speed);
+  return unmarked_ > 0 ? "the thread waits for the index mark of the spindle" : "";
 }
 
 std::uint64_t ThreadRun::cycles(double seconds) const {
@@ -84,7 +103,18 @@ void ThreadRun::break_off(std::string why) {
   if (broken_.empty()) broken_ = std::move(why);
 }
 
-void ThreadRun::supervise(const Prediction& prediction) {
+// The mark passes in every revolution. A slow spindle may take longer than a wrong speed is waited for.
+void ThreadRun::await_mark(std::uint64_t cycle, const Prediction& prediction) {
+  const bool passed = homed(cycle);
+  unmarked_ = passed ? 0 : unmarked_ + 1;
+  turned_ = passed ? 0 : turned_ + std::abs(prediction.rate);
+  if (unmarked_ > cycles(wrong_seconds) && turned_ > turns_to_mark)
+    break_off("no index mark of the spindle has passed in " + std::to_string(std::lround(turned_)) +
+              " revolutions: see its encoder");
+}
+
+void ThreadRun::supervise(std::uint64_t cycle, const Prediction& prediction) {
+  newest_ = prediction;
   const double per_second = prediction.rate / spindle_.cycle_seconds;
   standing_ = std::abs(per_second) < standing_rate ? standing_ + 1 : 0;
   wrong_ = at_speed(prediction) ? 0 : wrong_ + 1;
@@ -97,6 +127,7 @@ void ThreadRun::supervise(const Prediction& prediction) {
               (highest < ThreadPath::speed_margin ? ", the axes can follow " + speed_text(highest * speed)
                                                   : std::string()));
   }
+  if (phase_ == Phase::waiting) await_mark(cycle, prediction);
 }
 
 // The drive has the angles of a lead before the tool moves.
@@ -114,7 +145,7 @@ ThreadCycle ThreadRun::step(std::uint64_t cycle, bool abandoned, bool held) {
   out.position = position_;
   const auto prediction = predict(cycle);
   if (prediction)
-    supervise(*prediction);
+    supervise(cycle, *prediction);
   else if (cycle > first_ + cycles(standing_seconds))
     break_off("the drive reports no angles of the spindle");
   if (phase_ == Phase::waiting) {

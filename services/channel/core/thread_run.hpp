@@ -54,6 +54,8 @@ class ThreadRun {
   bool ended() const { return ended_; }
   /// It was broken off: why.
   const std::string& broken() const { return broken_; }
+  /// While it waits for the spindle: for what.
+  std::string waits_for() const;
 
   /// As ThreadPath::build(); without a fault it then waits for the spindle.
   ThreadPath::Fault begin(const AxisValues& start, std::span<const ThreadLeg> legs,
@@ -88,7 +90,10 @@ class ThreadRun {
   bool homed(std::uint64_t cycle) const;
   /// At a speed for which the path was made.
   bool at_speed(const Prediction& prediction) const;
-  void supervise(const Prediction& prediction);
+  /// 1/min, positive in the direction of S.
+  double speed_of(const Prediction& prediction) const;
+  void supervise(std::uint64_t cycle, const Prediction& prediction);
+  void await_mark(std::uint64_t cycle, const Prediction& prediction);
   void break_off(std::string why);
   std::uint64_t cycles(double seconds) const;
 
@@ -100,6 +105,9 @@ class ThreadRun {
   std::vector<Row> rows_ = std::vector<Row>(rows);
   std::uint64_t first_ = 0;
   std::uint64_t standing_ = 0, wrong_ = 0;  // cycles in a row
+  std::uint64_t unmarked_ = 0;              // cycles at the start without the index mark
+  double turned_ = 0;                       // rev in them
+  std::optional<Prediction> newest_;
   bool ended_ = false, braked_ = false;
   std::string broken_;
 };

@@ -104,5 +104,20 @@ TEST_F(ExplicitState, HasWhatTheRecordOfTheProgramHas) {
   EXPECT_EQ(core->running_program(), before);
 }
 
+// They refuse a tap, also before the drive has said it again.
+TEST_F(ExplicitState, HasTheSpindlesThatAreSynchronized) {
+  EXPECT_EQ(given().find("\"synchronized\""), std::string::npos);
+  drive.spindle_states = [](std::uint64_t) {
+    std::vector<idl::stream::SpindleState> states(2);
+    states[0].master = -1, states[1].master = 0;
+    states[1].condition = idl::stream::SpindleCondition::SPINDLE_SYNCHRONIZED;
+    return states;
+  };
+  round();
+  continue_from(given());
+  std::string why_not;
+  EXPECT_EQ(core->explicit_state(why_not).at("synchronized"), 3);
+}
+
 }  // namespace
 }  // namespace trunnion::channel

@@ -36,6 +36,7 @@ class FakeDrive {
       echo_.active = false;
       queue_.clear();
       mode = DriveMode::FOLLOWING;
+      if (request.kind == StreamRequestKind::HOME) echo_.search = idl::stream::ReferenceSearch::SEARCHES;
     }
   }
   /// It finds `axis` at `position`, or it does not.
@@ -57,6 +58,8 @@ class FakeDrive {
   std::function<double(std::uint64_t cycle, const std::vector<double>& row)> lag;
   /// Angle of the encoder of a spindle in a cycle, rev; empty: there is none.
   std::function<double(std::uint64_t cycle)> spindle_angle;
+  /// Speed of the first spindle now, 1/min; empty: it is not reported, or 0 with an angle.
+  std::function<double()> spindle_speed;
   /// States of the spindles when all cycles below `next` are executed; empty: the machine has none.
   std::function<std::vector<idl::stream::SpindleState>(std::uint64_t next)> spindle_states;
   /// Executes batches, at most `cycles` setpoints' worth, and reports.
@@ -98,11 +101,13 @@ class FakeDrive {
               feedback.actual.begin());
     feedback.first = next - feedback.count;
     if (spindle_angle) feedback.spindle_speed = {0.0};
+    if (spindle_speed) feedback.spindle_speed = {spindle_speed()};
     if (spindle_states) feedback.spindles = spindle_states(next);
     feedback.mode = mode;
     feedback.tick = tick += done;
     feedback.axis_count = static_cast<std::uint16_t>(position_.size());
     feedback.position = position_;
+    feedback.enabled = enabled;
     echo_.next = next;
     feedback.channels = {echo_};
     return feedback;
@@ -117,7 +122,8 @@ class FakeDrive {
   void lose_queue() { queue_.clear(); }
 
   DriveMode mode = DriveMode::FOLLOWING;
-  bool waits_for_others = false;  // another channel that it has stopped has not resumed yet
+  std::vector<std::uint8_t> enabled;  // as in Feedback
+  bool waits_for_others = false;      // another channel that it has stopped has not resumed yet
   int starts = 0, resumes = 0;
   std::uint64_t tick = 0;  // one for each setpoint; more pass in a hold
   std::uint64_t next = 0;

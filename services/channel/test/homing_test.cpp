@@ -58,6 +58,37 @@ TEST_F(HomedAxis, WithoutItsReferenceNothingStartsButItsSearch) {
   EXPECT_TRUE(reference(1).accepted);
 }
 
+// Its switch may be searched behind that one; a program may home its axes, and moves wait.
+TEST_F(HomedAxis, WhileAnotherChannelSearchesAReferenceThisOneMayDemandItsOwn) {
+  drive.mode = DriveMode::HOMING;
+  core->on_feedback(drive.run(0));
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG);
+  const auto answer = ask(CommandKind::JOG_AXIS, "", 600, 1, Mode::JOG, 0);
+  EXPECT_FALSE(answer.accepted);
+  EXPECT_EQ(answer.alarm, alarm::not_ready.number);
+  EXPECT_EQ(answer.reason, "Another channel searches the reference of an axis: wait until it has found it");
+  load("G0 X1\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  begin_round();
+  begin_round();
+  EXPECT_EQ(drive.starts, 0) << "the drive would give no place in the stream";
+  EXPECT_EQ(core->state().state, RunState::RUNNING);
+  EXPECT_EQ(core->state().detail, "waits: another channel searches a reference");
+  drive.mode = DriveMode::FOLLOWING;
+  core->on_feedback(drive.run(0));
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_NEAR(drive.rows.back()[0], 1, 1e-9);
+  drive.mode = DriveMode::HOMING;
+  core->on_feedback(drive.run(0));
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::REF);
+  ASSERT_TRUE(reference(1).accepted);
+  const auto request = core->take_stream_request();
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->kind, StreamRequestKind::HOME);
+  EXPECT_EQ(core->state().detail, "axis Y waits: another channel searches a reference");
+}
+
 /// Y searches its switch in the drive.
 struct Searching : HomedAxis {
   void SetUp() override {
@@ -242,6 +273,45 @@ TEST_F(HomingAlone, IsOverWhenTheDriveNoLongerSearches) {
   report(DriveMode::FOLLOWING);
   homing.advance(link, true);
   EXPECT_FALSE(homing.active());
+}
+
+// The drive answers a demand when it begins, and searches for another channel before and behind it.
+TEST_F(HomingAlone, WaitsForTheSearchOfAnotherChannelAndDoesNotWaitBehindIt) {
+  const machine::ChannelAxes axes{{language::Y}, {1}, "Y"};
+  report(DriveMode::HOMING);
+  homing.begin(1);
+  homing.advance(link, true);
+  const auto request = link.take_request();
+  ASSERT_TRUE(request);
+  report(DriveMode::HOMING);
+  homing.advance(link, true);
+  EXPECT_TRUE(homing.active());
+  EXPECT_EQ(homing.detail(axes, link, true), "axis Y waits: another channel searches a reference");
+  drive.request(*request);
+  report(DriveMode::HOMING);
+  homing.advance(link, true);
+  EXPECT_EQ(homing.detail(axes, link, true), "axis Y searches its reference");
+  drive.end_search(true, 1, 5);
+  report(DriveMode::HOMING);
+  homing.advance(link, true);
+  EXPECT_FALSE(homing.active());
+  EXPECT_EQ(homing.take_outcome(), Homing::Outcome::found);
+}
+
+TEST_F(HomingAlone, ThatWaitsIsEndedByAFeedHold) {
+  report(DriveMode::HOMING);
+  homing.begin(1);
+  homing.advance(link, true);
+  ASSERT_TRUE(link.take_request());
+  homing.end(link, true);
+  const auto request = link.take_request();
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->kind, StreamRequestKind::LEAVE);
+  drive.request(*request);
+  report(DriveMode::HOMING);
+  homing.advance(link, true);
+  EXPECT_FALSE(homing.active()) << "the drive still searches for the other one";
+  EXPECT_EQ(homing.take_outcome(), Homing::Outcome::ended);
 }
 
 TEST_F(HomingAlone, IsActiveUntilTheDriveHasBrakedWhenItWasEnded) {

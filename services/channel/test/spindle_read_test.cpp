@@ -58,6 +58,18 @@ TEST(SpindleValueOf, IsTakenFromTheStateOfTheSpindle) {
   EXPECT_EQ(spindle_value(feedback, canonical::read_number(SpindleValue::homed, 2)), 0) << "there is none";
 }
 
+TEST(SpindleValueOf, TheSynchronizedSpindlesAreSlavesAndTheirMasters) {
+  idl::stream::Feedback feedback;
+  EXPECT_EQ(synchronized_spindles(feedback), 0u);
+  feedback.spindles = states_at(0);
+  feedback.spindles.resize(4);
+  feedback.spindles[1].condition = SpindleCondition::SPINDLE_AT_SPEED;
+  EXPECT_EQ(synchronized_spindles(feedback), 0u) << "0 in master is none of a spindle that does not follow";
+  feedback.spindles[3].condition = SpindleCondition::SPINDLE_SYNCHRONIZING;
+  feedback.spindles[3].master = 1;
+  EXPECT_EQ(synchronized_spindles(feedback), 0b1010u);
+}
+
 // Each reading waits 10 ms, 10 cycles: a loop of readings alone reaches cycle 400.
 TEST_F(SpindleReading, ALoopWaitsAndReadsTheSameHoweverTheFeedbackArrives) {
   std::vector<double> runs[2];

@@ -27,6 +27,19 @@ struct ThreadCut : Channel {
     for (int i = 0; i < 100000 && (drive.rows.empty() || drive.rows.back()[2] > z); ++i) round();
   }
   double z() const { return drive.rows.back()[2]; }
+  /// Setpoints that followed the spindle.
+  std::vector<std::vector<double>> thread_rows() const {
+    std::vector<std::vector<double>> result;
+    for (std::size_t i = 0; i < drive.rows.size(); ++i)
+      if (drive.follows[i]) result.push_back(drive.rows[i]);
+    return result;
+  }
+  /// Rounds until the operator is told something.
+  std::string told() {
+    for (int i = 0; i < 1000 && core->state().detail.empty(); ++i) round();
+    return core->state().detail;
+  }
+  bool marked = true;  // the index mark has passed
   bool has_event(const machine::AlarmDefinition& alarm) const {
     return std::any_of(events.begin(), events.end(), [&](const auto& e) { return e.alarm == &alarm; });
   }
@@ -77,14 +90,25 @@ TEST_F(ThreadCut, IsTheSameWhateverTheDriveReportsAtATime) {
   EXPECT_EQ(drive.rows, rows);
 }
 
+// The axes follow the measured angle: of the override of the spindle they know only by that.
 TEST_F(ThreadCut, AFeedHoldActsAtTheEndAndOverridesDoNot) {
+  start(one_thread);
+  run();
+  const auto undisturbed = thread_rows();
+  ASSERT_GT(undisturbed.size(), 1000u) << "20 mm are 10 revolutions of 100 cycles";
+  const auto angles = drive.spindle_angle;
+  drive = testing::FakeDrive(3);
+  drive.spindle_angle = angles;
+  begin();
   start(one_thread);
   cut_to(-5);
   ask(CommandKind::FEED_OVERRIDE, "", 0.1);
+  ask(CommandKind::SPINDLE_OVERRIDE, "", 0.5);
   ASSERT_TRUE(ask(CommandKind::FEED_HOLD).accepted);
   run();
   EXPECT_EQ(core->run_state(), RunState::HELD);
   EXPECT_EQ(z(), -20);
+  EXPECT_EQ(thread_rows(), undisturbed);
   ask(CommandKind::CYCLE_START);
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
@@ -114,6 +138,51 @@ TEST_F(ThreadCut, ASpindleThatDoesNotTurnBreaksItOffBeforeItBegins) {
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   EXPECT_EQ(z(), 0);
   EXPECT_TRUE(has_event(alarm::thread_broken));
+}
+
+TEST_F(ThreadCut, TheOperatorIsToldForWhatAThreadWaits) {
+  drive.spindle_angle = [](std::uint64_t cycle) { return 0.004 * static_cast<double>(cycle); };
+  start(one_thread);
+  EXPECT_EQ(told(), "the thread waits for the spindle: it turns at 240 1/min, S is 600 1/min");
+  ask(CommandKind::RESET);
+  run();
+  drive.spindle_angle = [](std::uint64_t cycle) { return 0.01 * static_cast<double>(cycle); };
+  drive.spindle_states = [this](std::uint64_t) {
+    std::vector<idl::stream::SpindleState> states(1);
+    states[0].homed = marked, states[0].master = -1;
+    return states;
+  };
+  marked = false;
+  start(one_thread);
+  EXPECT_EQ(told(), "the thread waits for the index mark of the spindle");
+  EXPECT_EQ(z(), 0);
+  marked = true;
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_TRUE(events.empty());
+  EXPECT_EQ(z(), -20);
+}
+
+// M5 behind the thread has not been answered when the process is killed.
+TEST_F(ThreadCut, AProgramGoesOnBehindAWholeThreadInAnotherProcess) {
+  start("G90 G94 S600 M3\nG33 Z-20 F2\nM5\nG0 X5\nM30\n");
+  cut_to(-5);
+  answer_plc = false;
+  for (int i = 0; i < 100000 && auxiliaries.back().code != 5; ++i) round();
+  ASSERT_EQ(auxiliaries.back().code, 5u);
+  EXPECT_FALSE(core->link().snapshot().in_thread);
+  answer_plc = true;
+  events.clear();
+  begin(core->running_program());
+  round();
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().text, "Program part.nc was interrupted in line 2");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_FALSE(has_event(alarm::not_resumable));
+  EXPECT_EQ(drive.rows.back()[0], 5);
+  EXPECT_EQ(z(), -20);
 }
 
 TEST_F(ThreadCut, AStopOfTheDriveInTheThreadCanOnlyBeReset) {

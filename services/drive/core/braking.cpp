@@ -30,6 +30,7 @@ double DriveCore::rate_step() { return 1 / std::max(2.0, stop_periods(std::min(s
 // Another part of the controller has found a reason to stop: along the path, as for a missing setpoint.
 void DriveCore::stop() {
   if (mode_ == Mode::HOMING) homing_.abort();
+  streams_.refuse_waiting();
   if (mode_ == Mode::FOLLOWING && any_active()) begin_braking();
 }
 

@@ -36,9 +36,30 @@ bool ChannelStream::expects(const idl::stream::StreamRequest& wanted) const {
              : begun && wanted.epoch == epoch;
 }
 
+void ChannelStream::refuse_waiting() {
+  if (waiting.request == 0) return;
+  request = waiting.request;
+  search = idl::stream::ReferenceSearch::SEARCH_FAILED;
+  waiting = {};
+}
+
 void ChannelStream::release_spindle(Spindles& spindles) {
   if (spindle >= 0) spindles.coupling(spindle).release();
   spindle = -1;
+}
+
+ChannelStream* ChannelStreams::next_waiting(std::uint16_t channel) {
+  ChannelStream* first = nullptr;
+  for (auto& [number, other] : channels_) {
+    if (other.waiting.request == 0) continue;
+    if (number > channel) return &other;
+    if (first == nullptr) first = &other;
+  }
+  return first;
+}
+
+void ChannelStreams::refuse_waiting() {
+  for (auto& [number, channel] : channels_) channel.refuse_waiting();
 }
 
 ChannelStream* ChannelStreams::find(std::uint16_t channel) {

@@ -46,6 +46,7 @@ struct ChannelStream {
   int spindle = -1;        ///< that follows the channel's batches
   bool skip_move = false;  ///< of the newest batch of which a setpoint was passed
   idl::stream::ReferenceSearch search = idl::stream::ReferenceSearch::NO_SEARCH;  ///< of its newest HOME
+  idl::stream::StreamRequest waiting{};  ///< a HOME behind the search of another; its number is 0: none
   ThreadFollowing thread;
 
   /// Setpoints of the axes of the batch at `cycle`; null when they are not here.
@@ -64,6 +65,8 @@ struct ChannelStream {
   void thread_row(std::uint64_t cycle, std::span<double> out) const;
   /// The epoch of a START or NEW_EPOCH is the one that comes next.
   bool expects(const idl::stream::StreamRequest& request) const;
+  /// A HOME that waits is answered: it has failed.
+  void refuse_waiting();
   void release_spindle(Spindles& spindles);
 
   template <class Self, class Visit>
@@ -76,6 +79,7 @@ struct ChannelStream {
     visit("resume", self.resume);
     if (!std::is_const_v<Self> || self.search != idl::stream::ReferenceSearch::NO_SEARCH)
       visit("search", self.search);
+    if (!std::is_const_v<Self> || self.waiting.request != 0) visit("waiting", self.waiting);
     if (!std::is_const_v<Self> || self.thread.active()) visit("thread", self.thread);
   }
 
@@ -113,6 +117,9 @@ class ChannelStreams {
   /// stands there has a key of his own.
   bool resume_demanded() const;
   void forget_resumes();
+  /// A channel whose HOME waits, in the order of their numbers and around behind `channel`; null: none.
+  ChannelStream* next_waiting(std::uint16_t channel);
+  void refuse_waiting();
   /// Channels whose start has come begin when `prefilled`: there are enough setpoints. False when none has
   /// begun.
   bool let_begin(std::uint64_t next, bool prefilled);

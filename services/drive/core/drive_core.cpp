@@ -36,6 +36,9 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   for (std::size_t i = 0; i < axes_.size(); ++i) limits_[i] = axis_limits(p, axes_[i].number);
   slaves_.configure(p, axes_.size());
   spindles_.configure(p, dt_);
+  for (std::size_t i = 0; i < spindles_.size(); ++i)
+    spindles_.coupling(static_cast<int>(i))
+        .configure(p.get(parameter::following_error_limit, spindles_.axes()[i].number));
   spindles_.report_parameters(events_);
   row_.spindles.resize(spindles_.size());
   hardware_->configure(p, axes_, spindles_.axes(), dt_);
@@ -117,6 +120,14 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
   if (found == nullptr) return;
   auto& channel = *found;
   if (request.request == channel.request && request.epoch == channel.epoch) return;
+  // A process that continues from a snapshot hears the newest request of each channel again.
+  if (request == channel.waiting) return;
+  channel.refuse_waiting();
+  // It is answered when it begins.
+  if (request.kind == StreamRequestKind::HOME && mode_ == Mode::HOMING) {
+    channel.waiting = request;
+    return;
+  }
   channel.request = request.request;
   switch (request.kind) {
     case StreamRequestKind::START:
@@ -194,6 +205,7 @@ void DriveCore::stop_at_newest_row(std::uint64_t starved) {
   if (mode_ == Mode::RETURNING) off_path_ = true;
   if (homing) {
     note_search(HomingCycle::State::failed);
+    streams_.refuse_waiting();
     target_ = command_;
   }
   for (auto& axis : row_.axes) axis.velocity = 0;
@@ -230,6 +242,7 @@ void DriveCore::step() {
         --settle_;
       break;
   }
+  if (mode_ != Mode::HOMING) begin_waiting_search();
   exchange();
 }
 

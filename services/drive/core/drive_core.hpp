@@ -152,6 +152,7 @@ class DriveCore {
   void start(ChannelStream& channel, const idl::stream::StreamRequest& request);
   bool all_homed();
   void home(ChannelStream& channel, const idl::stream::StreamRequest& request);
+  void begin_waiting_search();
   void reference(std::size_t column, double shift);
   void reference_members();
   void step_homing();
@@ -174,6 +175,7 @@ class DriveCore {
   void switch_off();
   void stop_at_newest_row(std::uint64_t starved);
   void supervise();
+  void supervise_spindles();
   bool spindles_run_down() const;
   bool testing() const { return hardware_->tester() != nullptr && hardware_->tester()->running(); }
   void watch_probe();

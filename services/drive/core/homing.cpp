@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reference of axes whose encoders do not know it: homing, and no motion of a channel without it.
+#include <utility>
+
 #include "drive_core.hpp"
 #include "machine/alarm_constants.hpp"
 
@@ -27,11 +29,10 @@ void DriveCore::home(ChannelStream& channel, const idl::stream::StreamRequest& r
   channel.search = ReferenceSearch::SEARCH_FAILED;
   const int found = machine::column_of(axes_, request.axis);
   if (found < 0) return;
-  if (mode_ == Mode::HOMING || (mode_ == Mode::FOLLOWING && any_active()))
+  if (mode_ == Mode::FOLLOWING && any_active())
     raise(alarm::homing_failed, request.axis,
           "Axis " + axes_[static_cast<std::size_t>(found)].name +
-              " was not homed: another channel moves or homes an axis. Wait until it has ended, then home "
-              "again");
+              " was not homed: another channel moves its axes. Wait until it has ended, then home again");
   if (mode_ != Mode::FOLLOWING || any_active()) return;
   auto column = static_cast<std::size_t>(found);
   if (const auto* slave = slaves_.at(column); slave != nullptr && !slave->off)
@@ -55,6 +56,17 @@ void DriveCore::home(ChannelStream& channel, const idl::stream::StreamRequest& r
       break;
   }
   homing_.end();
+}
+
+// The channels take turns. Drives that are off refuse.
+void DriveCore::begin_waiting_search() {
+  while (mode_ != Mode::HOMING) {
+    auto* const channel = streams_.next_waiting(homing_.channel());
+    if (channel == nullptr) return;
+    const auto request = std::exchange(channel->waiting, {});
+    channel->request = request.request;
+    home(*channel, request);
+  }
 }
 
 // The positions of an axis are greater by `shift` from now on.

@@ -26,6 +26,7 @@ void HomingGroup::gather(std::uint16_t channel, std::size_t column, GantrySlaves
                          const std::vector<double>& command) {
   column_ = column;
   channel_ = channel;
+  members_.reserve(1 + slaves.all().size());
   members_ = {{column, 1, command[column]}};
   for (auto& slave : slaves.all()) {
     if (slave.master_column() != column || slave.off) continue;

@@ -41,10 +41,10 @@ class HomingGroup {
   };
 
   /// `channel` demands the reference of the axis in `column`, which is at rest. The distance of a slave that
-  /// moves with it is not known any longer. Not cyclic.
+  /// moves with it is not known any longer. Cyclic only behind a first call: that one allocates.
   void gather(std::uint16_t channel, std::size_t column, GantrySlaves& slaves,
               const std::vector<double>& command);
-  /// `limits` of all axes. `speed` mm/s or deg/s makes the search slower; 0 does not. Not cyclic.
+  /// `limits` of all axes. `speed` mm/s or deg/s makes the search slower; 0 does not.
   Start start(const machine::AxisInfo& axis, const std::vector<AxisLimits>& limits,
               const std::vector<double>& command, double speed = 0);
   /// Brakes and ends as failed.

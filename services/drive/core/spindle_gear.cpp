@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spindle_gear.hpp"
 
-#include <algorithm>
+#include <limits>
 
 #include "machine/parameter_constants.hpp"
 
@@ -14,11 +14,9 @@ GearSpeeds gear_speeds(const machine::Parameters& parameters, std::uint16_t spin
   return speeds;
 }
 
-double SpindleGear::limited(double speed) const {
+double SpindleGear::highest() const {
   const std::uint8_t gear = in_force();
-  if (gear == 0) return speed;
-  const double highest = highest_[gear - 1u];
-  return std::clamp(speed, -highest, highest);
+  return gear == 0 ? std::numeric_limits<double>::infinity() : highest_[gear - 1u];
 }
 
 }  // namespace trunnion::drive

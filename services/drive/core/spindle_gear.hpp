@@ -28,8 +28,8 @@ class SpindleGear {
     return engaged_ >= 1 && engaged_ <= gear_count && highest_[engaged_ - 1u] > 0 ? engaged_
                                                                                   : std::uint8_t{0};
   }
-  /// `speed` (1/min, of either sign), at most the highest of the gear in force.
-  double limited(double speed) const;
+  /// 1/min, of the gear in force; infinite without one.
+  double highest() const;
 
   /// No fields, configure() sets them: highest_.
   template <class Self, class Visit>

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "machine/parameter_constants.hpp"
 #include "spindle_ramp.hpp"
+#include "timeouts.hpp"
 
 namespace trunnion::drive {
 namespace {
@@ -14,6 +16,7 @@ constexpr double acceleration_share = 0.9;   // of what the spindle can, for its
 constexpr double approach_tolerance = 1.05;  // share of the speed of the approach at which it begins
 constexpr double no_distance = 1e-9;         // rev
 constexpr double degrees = 360, seconds_of_minute = 60;
+constexpr double turns_of_approach = 2;  // to the index mark and to the angle
 
 }  // namespace
 
@@ -33,6 +36,9 @@ void SpindleOrientation::configure(const OrientationSettings& settings, double p
   own_speed_ = settings.speed;
   approach_speed_ = settings.speed / seconds_of_minute * period;
   speed_step_ = own_step_ = acceleration_share * settings.acceleration / degrees * period * period;
+  const double limit = orientation_timeout + turns_of_approach * seconds_of_minute / settings.speed;
+  const auto periods = static_cast<std::uint32_t>(std::llround(limit / period));
+  if (periods != std::exchange(late_periods_, periods)) waited_ = 0;
 }
 
 void SpindleOrientation::limit_acceleration(double acceleration) {
@@ -43,14 +49,16 @@ void SpindleOrientation::demand(bool on, double angle) {
   demanded_ = on;
   const double before = reference();
   ordered_ = angle >= 0 ? angle / degrees : -1;
-  if (reference() != before) active_ = false;
+  if (reference() == before) return;
+  active_ = false;
+  waited_ = 0;
 }
 
 SpindleSetpoint SpindleOrientation::step(const SpindleSetpoint& setpoint, const SpindleStatus& status,
                                          bool controlled) {
   if (!demanded_ || setpoint.coupled || !controlled || speed_step_ <= 0) {
     active_ = arriving_ = false;
-    outside_ = 0;
+    outside_ = waited_ = 0;
     return setpoint;
   }
   watch(status);
@@ -72,6 +80,10 @@ SpindleSetpoint SpindleOrientation::step(const SpindleSetpoint& setpoint, const 
 // Of the period that has passed. A spindle that has not come into its window yet has not left it.
 void SpindleOrientation::watch(const SpindleStatus& status) {
   const bool held = active_ && at_target();
+  if (held && within_window(status))
+    waited_ = 0;
+  else if ((!held || arriving_) && waited_ <= late_periods_)
+    ++waited_;
   if (!held || within_window(status)) {
     arriving_ = false;
     outside_ = 0;

@@ -48,11 +48,16 @@ class SpindleOrientation {
   /// In the period of the last step() a held spindle has been out of its window for orientation_lost_periods,
   /// once each time it leaves it.
   bool lost() const { return outside_ == orientation_lost_periods; }
-  /// The alarms are reset: a spindle that is still out of its window is lost again.
-  void acknowledge() { outside_ = 0; }
+  /// In the period of the last step() it has been on its way for time_limit(), once for each angle: it is
+  /// blocked, does not slow down, or its index mark does not pass.
+  bool late() const { return waited_ == late_periods_; }
+  /// s
+  double time_limit() const { return late_periods_ * period_; }
+  /// The alarms are reset: a spindle that is still out of its window, or on its way, is lost or late again.
+  void acknowledge() { outside_ = waited_ = 0; }
 
   /// No fields, configure() sets them: period_, reference_, window_, approach_speed_, speed_step_, own_step_,
-  /// own_speed_.
+  /// own_speed_, late_periods_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("demanded", self.demanded_), visit("active", self.active_), visit("angle", self.angle_);
@@ -60,6 +65,7 @@ class SpindleOrientation {
     if (!std::is_const_v<Self> || self.ordered_ >= 0) visit("ordered", self.ordered_);
     if (!std::is_const_v<Self> || self.arriving_) visit("arriving", self.arriving_);
     if (!std::is_const_v<Self> || self.outside_ != 0) visit("outside", self.outside_);
+    if (!std::is_const_v<Self> || self.waited_ != 0) visit("waited", self.waited_);
   }
 
  private:
@@ -79,6 +85,8 @@ class SpindleOrientation {
   double ordered_ = -1;                        // rev: in place of reference_; below 0 = none
   bool arriving_ = false;                      // its angle has arrived, the spindle not yet
   std::uint32_t outside_ = 0;                  // periods, one more than those of lost() at most
+  std::uint32_t waited_ = 0;                   // periods on its way, one more than late_periods_ at most
+  std::uint32_t late_periods_ = 1;
 };
 
 }  // namespace trunnion::drive

@@ -13,13 +13,7 @@ RampSettings ramp_settings(const machine::Parameters& parameters, std::uint16_t 
           parameters.get(parameter::base_speed, spindle), parameters.get(parameter::power_speed, spindle)};
 }
 
-double acceleration_at(const RampSettings& settings, double speed) {
-  if (!settings.usable()) return 0;
-  const double at = std::abs(speed);
-  if (!settings.speed_dependent || at <= settings.base_speed) return settings.acceleration;
-  const double power = settings.acceleration * (settings.base_speed / at);
-  return at <= settings.power_speed ? power : power * (settings.power_speed / at);
-}
+double acceleration_at(const RampSettings& settings, double speed) { return settings.at(speed); }
 
 void SpindleRamp::configure(const RampSettings& settings, double period) {
   settings_ = settings;

@@ -5,24 +5,15 @@
 #include <cstdint>
 
 #include "machine/parameters.hpp"
+#include "machine/spindle_acceleration.hpp"
 
 namespace trunnion::drive {
 
-struct RampSettings {
-  double acceleration = 0;       ///< deg/s2, up to the base speed: 10a036
-  bool speed_dependent = false;  ///< 10a971
-  double base_speed = 0;         ///< 1/min: 10a972
-  double power_speed = 0;        ///< 1/min: 10a973
-
-  /// The base speed is above 0 and not above the power speed, where they are in force.
-  bool usable() const { return !speed_dependent || (base_speed > 0 && power_speed >= base_speed); }
-};
+using RampSettings = machine::SpindleAcceleration;
 /// Of the spindle with a logical number.
 RampSettings ramp_settings(const machine::Parameters& parameters, std::uint16_t spindle);
 
-/// deg/s2 at `speed` (1/min, of either sign): constant up to the base speed (constant torque), falling with
-/// the speed up to the power speed (constant power), above it with its square. 0 with settings that are not
-/// usable.
+/// deg/s2 at `speed` (1/min, of either sign); 0 with settings that are not usable.
 double acceleration_at(const RampSettings& settings, double speed);
 
 /// Without 10a971 the reference is what is demanded, and the spindle accelerates as it can by itself.

@@ -69,7 +69,7 @@ double SpindleSynchronization::step(const SynchronizationOrder& order, const Mas
   const double wanted = sign * master.reference;
   const double deviation = sign * (master.angle + order.angle) - slave.angle;
   if (!closed_) {
-    run_up(wanted);
+    run_up(std::clamp(wanted, -order.highest, order.highest));
     count_turns_from(deviation, wanted);
     angle_ = order.angle;
     const double tolerance =

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "contracts/types.hpp"
 #include "drive_hardware.hpp"
@@ -34,6 +35,7 @@ struct SynchronizationOrder {
   bool reverse = false;  ///< the other way round
   double angle = 0;      ///< rev: the slave is at (master + angle), with reverse at -(master + angle)
   idl::plc::IntegralAction integral = idl::plc::IntegralAction::INTEGRAL_NONE;
+  double highest = std::numeric_limits<double>::infinity();  ///< 1/min: it runs up to no more than that
 };
 
 struct MasterMotion {
@@ -48,6 +50,8 @@ class SpindleSynchronization {
  public:
   /// `period` s. Not cyclic.
   void configure(const SynchronizationSettings& settings, double period);
+  /// In place of that of the settings, until the next configure().
+  void use_ramp(const RampSettings& ramp) { settings_.ramp = ramp; }
   /// From the speed that the slave has, 1/min.
   void begin(double speed);
   void end();

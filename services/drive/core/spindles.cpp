@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spindles.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 #include "machine/alarm_constants.hpp"
@@ -21,6 +23,8 @@ void Spindles::configure(const machine::Parameters& parameters, double period) {
   ramps_.resize(axes_.size());
   gears_.resize(axes_.size());
   windows_.resize(axes_.size());
+  highest_.resize(axes_.size());
+  permitted_.resize(axes_.size());
   surface_.configure(axes_.size());
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const auto number = axes_[i].number;
@@ -28,6 +32,8 @@ void Spindles::configure(const machine::Parameters& parameters, double period) {
     ramps_[i].configure(ramp_settings(parameters, number), period);
     gears_[i].configure(gear_speeds(parameters, number));
     windows_[i] = parameters.get(parameter::speed_window, number) / 100;
+    const double highest = parameters.get(parameter::maximum_speed, number);
+    highest_[i] = highest > 0 ? highest : std::numeric_limits<double>::infinity();
   }
   synchronized_.configure(parameters, axes_, period);
 }
@@ -65,8 +71,15 @@ void Spindles::lead_on(double cycles) {
   for (auto& coupling : couplings_) coupling.lead_on(cycles);
 }
 
+double Spindles::highest_speed(std::size_t i) const { return std::min(highest_[i], gears_[i].highest()); }
+
 double Spindles::commanded_speed(std::size_t i) const {
-  return gears_[i].limited(surface_.follows(i) ? surface_.speed(i) : couplings_[i].setpoint().speed);
+  double highest = highest_speed(i);
+  for (std::size_t k = 0; k < size(); ++k)
+    if (synchronized_.follows(k) && synchronized_.master_of(k) == i)
+      highest = std::min(highest, highest_speed(k));
+  return std::clamp(surface_.follows(i) ? surface_.speed(i) : couplings_[i].setpoint().speed, -highest,
+                    highest);
 }
 
 void Spindles::step(const std::vector<SpindleStatus>& status, bool controlled,
@@ -85,9 +98,10 @@ void Spindles::step(const std::vector<SpindleStatus>& status, bool controlled,
     if (ramps) setpoint.speed = reference;
     if (running_down && !follows && !leads) setpoint.speed = 0, setpoint.coupled = false;
     setpoint.gear = gears_[i].in_force();
+    permitted_[i] = highest_speed(i);
     out[i] = setpoint;
   }
-  synchronized_.step(status, out);
+  synchronized_.step(status, permitted_, out);
 }
 
 void Spindles::fill(const std::vector<SpindleStatus>& status, const std::vector<SpindleSetpoint>& row,
@@ -154,15 +168,28 @@ void Spindles::report(const std::vector<SpindleStatus>& status, std::vector<Driv
   constexpr double degrees = 360;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const auto& orientation = orientations_[i];
-    if (!orientation.lost()) continue;
+    if (!orientation.lost() && !orientation.late()) continue;
     const auto number = axes_[i].number;
+    const char* name = axes_[i].name.c_str();
     const double angle = orientation.angle();
+    const double beside = degrees * std::remainder(status[i].angle - angle / degrees, 1.0);
     char text[240];
-    std::snprintf(text, sizeof text,
-                  "Spindle %s is %.3f deg from its orientation angle %.3f deg, the window is that of "
-                  "parameter %s: see what turns it, then reset",
-                  axes_[i].name.c_str(), degrees * std::remainder(status[i].angle - angle / degrees, 1.0),
-                  angle, machine::number_text(parameter::orientation_window.number(number)).c_str());
+    if (orientation.lost())
+      std::snprintf(text, sizeof text,
+                    "Spindle %s is %.3f deg from its orientation angle %.3f deg, the window is that of "
+                    "parameter %s: see what turns it, then reset",
+                    name, beside, angle,
+                    machine::number_text(parameter::orientation_window.number(number)).c_str());
+    else if (status[i].homed)
+      std::snprintf(text, sizeof text,
+                    "Spindle %s turns at %.0f 1/min and is %.3f deg from its orientation angle %.3f deg %g s "
+                    "after the order: see what blocks or drives it, then reset",
+                    name, status[i].speed, beside, angle, orientation.time_limit());
+    else
+      std::snprintf(text, sizeof text,
+                    "Spindle %s turns at %.0f 1/min and has not passed its index mark %g s after the order "
+                    "of its orientation: see what blocks it, and its encoder, then reset",
+                    name, status[i].speed, orientation.time_limit());
     events.push_back({&alarm::orientation_lost, number, text});
   }
   for (const auto& finding : synchronized_.findings()) events.push_back(event_of(finding, axes_));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spindles of the machine. Each has the speed that the PLC demands, within its gear and by its ramp,
+// The spindles of the machine. Each has the speed that the PLC demands, within its limits and by its ramp,
 // turns to its orientation angle and is held there, follows an angle of the stream, or another spindle.
 #pragma once
 
@@ -67,7 +67,8 @@ class Spindles {
   /// The alarms are reset.
   void acknowledge();
 
-  /// No fields, configure() sets them: axes_, windows_, period_.
+  /// No fields, configure() sets them: axes_, windows_, highest_, period_.
+  /// No fields, every step() sets them: permitted_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("spindles", self.couplings_), visit("orientations", self.orientations_);
@@ -84,7 +85,9 @@ class Spindles {
   }
 
  private:
-  /// What the PLC demands, within the gear in force, 1/min.
+  /// 1/min: by 10a948 and the gear in force; infinite without a limit.
+  double highest_speed(std::size_t column) const;
+  /// What the PLC demands, within the highest speed of the spindle and of those that follow it, 1/min.
   double commanded_speed(std::size_t column) const;
   idl::stream::SpindleState state(std::size_t column, const SpindleStatus& status, const SpindleSetpoint& row,
                                   bool controlled, bool running_down) const;
@@ -97,7 +100,9 @@ class Spindles {
   std::vector<SpindleGear> gears_;
   SynchronizedSpindles synchronized_;
   SurfaceSpeeds surface_;
-  std::vector<double> windows_;  // share of the commanded speed
+  std::vector<double> windows_;    // share of the commanded speed
+  std::vector<double> highest_;    // 1/min, of 10a948
+  std::vector<double> permitted_;  // 1/min, in this period
   double period_ = 0.001;
 };
 

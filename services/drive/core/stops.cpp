@@ -6,6 +6,7 @@
 
 #include "drive_core.hpp"
 #include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
 #include "timeouts.hpp"
 
 namespace trunnion::drive {
@@ -40,6 +41,7 @@ void DriveCore::lose_control(std::string text) {
 
 void DriveCore::switch_off() {
   if (mode_ == Mode::HOMING) note_search(HomingCycle::State::failed);
+  streams_.refuse_waiting();
   enable_.lose();
   off_path_ = any_active();
   rate_.hold();
@@ -68,6 +70,25 @@ void DriveCore::supervise() {
       events_.push_back(std::move(*event));
       stop();
     }
+  }
+  supervise_spindles();
+}
+
+// The axes go on with the thread, whether the spindle that follows them turns or not.
+void DriveCore::supervise_spindles() {
+  for (std::size_t i = 0; i < spindles_.size(); ++i) {
+    auto& coupling = spindles_.coupling(static_cast<int>(i));
+    const bool whole = mode_ == Mode::FOLLOWING && rate_.whole();
+    if (!coupling.does_not_follow(row_.number, rows_.in_force(), status_.spindles[i].angle, whole)) continue;
+    const auto& spindle = spindles_.axes()[i];
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "Spindle %s does not follow the axes: following error %.2f deg, limit %.2f (parameter %s). "
+                  "See what brakes it, then reset",
+                  spindle.name.c_str(), coupling.following_error(), coupling.limit(),
+                  machine::number_text(parameter::following_error_limit.number(spindle.number)).c_str());
+    raise(alarm::following_error, spindle.number, text);
+    stop();
   }
 }
 

@@ -83,15 +83,29 @@ void SynchronizedSpindles::configure(const machine::Parameters& parameters,
                                      const std::vector<machine::AxisInfo>& spindles, double period) {
   count_ = spindles.size();
   period_ = period;
+  given_.resize(count_);
   ramps_.resize(count_);
   slaves_.resize(std::max(count_, most_numbered_spindles));
   masters_.resize(count_);
   findings_.reserve(2 * slaves_.size());
   for (std::size_t i = 0; i < count_; ++i) {
     const auto settings = synchronization_settings(parameters, spindles[i].number);
-    ramps_[i] = settings.ramp;
+    given_[i] = settings.ramp;
     slaves_[i].control.configure(settings, period);
   }
+  take_ramps();
+}
+
+bool SynchronizedSpindles::in_closed(std::size_t spindle) const {
+  return slaves_[spindle].control.closed() ||
+         std::any_of(slaves_.begin(), slaves_.end(),
+                     [&](const auto& slave) { return slave.control.closed() && slave.master() == spindle; });
+}
+
+// Spindles that a part may hold keep the ramp by which they can come to rest together.
+void SynchronizedSpindles::take_ramps() {
+  for (std::size_t i = 0; i < count_; ++i)
+    if (acceleration_at(given_[i], 0) > 0 || !in_closed(i)) ramps_[i] = given_[i];
 }
 
 void SynchronizedSpindles::couple(const std::vector<idl::plc::SpindleCoupling>& couplings) {
@@ -107,10 +121,14 @@ void SynchronizedSpindles::couple(const std::vector<idl::plc::SpindleCoupling>& 
   if (!any()) forget_masters();
 }
 
+bool SynchronizedSpindles::ends(const Slave& slave) {
+  return !slave.requested || slave.request.master != slave.order.master ||
+         slave.request.reverse != slave.order.reverse;
+}
+
 void SynchronizedSpindles::take(Slave& slave) {
   slave.deferred = false;
-  if (!slave.requested || !slave.ordered || slave.request.master != slave.order.master ||
-      slave.request.reverse != slave.order.reverse) {
+  if (!slave.ordered || ends(slave)) {
     slave.control.end();
     slave.refused = slave.waits = false;
   }
@@ -123,6 +141,7 @@ void SynchronizedSpindles::forget_masters() { std::fill(masters_.begin(), master
 void SynchronizedSpindles::await_rest() {
   for (auto& slave : slaves_) {
     if (slave.deferred) take(slave);
+    slave.refused = false;
     slave.waits = slave.ordered && !slave.control.active();
   }
   if (!any()) forget_masters();
@@ -166,7 +185,8 @@ bool SynchronizedSpindles::leads(std::size_t spindle) const {
                      [&](const auto& slave) { return slave.control.active() && slave.master() == spindle; });
 }
 
-// Whether the request makes sense is asked as it begins; a path or other parameters may come at any time.
+// Whether the request makes sense is asked as it begins; a path may come at any time, and other parameters
+// before the loop is closed.
 SynchronizationFinding SynchronizedSpindles::obstacle(std::size_t slave,
                                                       const std::vector<SpindleCoupling>& streams,
                                                       const std::vector<SpindleStatus>& status) const {
@@ -181,7 +201,8 @@ SynchronizationFinding SynchronizedSpindles::obstacle(std::size_t slave,
   for (const std::size_t spindle : {slave, master})
     if (streams[spindle].setpoint().coupled) return because(Problem::follows_path, spindle);
   for (const std::size_t spindle : {slave, master})
-    if (acceleration_at(ramps_[spindle], 0) <= 0) return because(Problem::no_acceleration, spindle);
+    if (!slaves_[slave].control.closed() && acceleration_at(given_[spindle], 0) <= 0)
+      return because(Problem::no_acceleration, spindle);
   if (slaves_[slave].control.active()) return {};
   const auto& above = slaves_[master];
   if (above.ordered && (!above.refused || above.master() == slave)) return because(Problem::chain, master);
@@ -196,10 +217,11 @@ void SynchronizedSpindles::judge(const std::vector<SpindleCoupling>& streams,
                                  bool running_down) {
   findings_.clear();
   settling_ = running_down && !ramps() ? settling_ + 1 : 0;
+  take_ramps();
   if (!any()) return;
   for (std::size_t i = 0; i < slaves_.size(); ++i) {
     auto& slave = slaves_[i];
-    if (slave.deferred && !keeps(slave)) take(slave);
+    if (slave.deferred && (!keeps(slave) || (!run_down_ && at_rest(i, status)))) take(slave);
     if (!slave.ordered || slave.refused) continue;
     if (running_down ? !slave.control.closed() : !controlled) {
       if (slave.control.closed() && !at_rest(i, status))
@@ -232,6 +254,13 @@ double SynchronizedSpindles::lowest_acceleration(std::size_t spindle, double spe
   return lowest;
 }
 
+// One of its slaves waits for rest to be taken from it.
+bool SynchronizedSpindles::must_rest(std::size_t master) const {
+  return run_down_ || std::any_of(slaves_.begin(), slaves_.end(), [&](const auto& slave) {
+           return slave.deferred && slave.control.active() && slave.master() == master;
+         });
+}
+
 // 1/min in a period: 6 deg/s are 1 1/min.
 double SynchronizedSpindles::change(std::size_t master, double speed) const {
   return lowest_acceleration(master, speed) / 6 * period_;
@@ -256,7 +285,7 @@ void SynchronizedSpindles::step_master(std::size_t spindle, const SpindleStatus&
   }
   master.active = true;
   master.positioned = false;
-  const double demand = run_down_ ? 0 : out.speed;
+  const double demand = must_rest(spindle) ? 0 : out.speed;
   const double direction = demand < master.reference ? -1 : 1;
   // The midpoint, as SpindleRamp.
   const double most = change(spindle, master.reference + direction * change(spindle, master.reference) / 2);
@@ -267,15 +296,18 @@ void SynchronizedSpindles::step_master(std::size_t spindle, const SpindleStatus&
   out.speed = master.reference;
 }
 
-void SynchronizedSpindles::step(const std::vector<SpindleStatus>& status, std::vector<SpindleSetpoint>& out) {
+void SynchronizedSpindles::step(const std::vector<SpindleStatus>& status, const std::vector<double>& highest,
+                                std::vector<SpindleSetpoint>& out) {
   if (!any()) return;
   for (std::size_t i = 0; i < count_; ++i) step_master(i, status[i], out[i]);
   for (std::size_t i = 0; i < count_; ++i) {
     auto& slave = slaves_[i];
     if (!slave.control.active()) continue;
     const std::size_t master = slave.master();
-    const SynchronizationOrder order{slave.order.reverse, slave.order.angle / 360, slave.order.integral};
+    const SynchronizationOrder order{slave.order.reverse, slave.order.angle / 360, slave.order.integral,
+                                     highest[i]};
     const MasterMotion motion{masters_[master].reference, status[master].speed, status[master].angle};
+    slave.control.use_ramp(ramps_[i]);
     out[i].speed = slave.control.step(order, motion, status[i]);
     out[i].coupled = false;
     if (slave.control.take_lost())

@@ -191,6 +191,66 @@ TEST(CoupledStop, ARequestThatIsWithdrawnMeanwhileEndsAtRest) {
   EXPECT_TRUE(lathe.core.take_events().empty());
 }
 
+// Of the ramp of 1 s the second half is left, 500 periods, and 5 1/min come 190 periods later. Only then does
+// each spindle follow its own order, by 2 1/min in the first period.
+TEST(CoupledStop, ARequestThatIsWithdrawnEndsAtRestAlsoWhenTheDrivesAreOnAgainBefore) {
+  Lathe lathe;
+  lathe.core.set_enables({1, 1}, true);
+  lathe.core.set_spindle_couplings({});
+  for (int i = 0; i < 500; ++i) lathe.step();
+  lathe.core.set_enables({1, 1}, false);
+  lathe.core.set_spindle_couplings({});
+  lathe.core.set_spindle_speed({600, 100});
+  EXPECT_EQ(lathe.core.mode(), Mode::FOLLOWING);
+  int periods = 0;
+  for (; lathe.slave().master == 0 && periods < 5000; ++periods) lathe.step();
+  EXPECT_NEAR(periods, 690, 30);
+  EXPECT_LT(lathe.most, window);
+  for (const auto& spindle : lathe.status.spindles) EXPECT_LE(std::abs(spindle.speed), 8);
+  for (int i = 0; i < 2000; ++i) lathe.step();
+  EXPECT_NEAR(lathe.status.spindles[0].speed, 600, 0.5);
+  EXPECT_NEAR(lathe.status.spindles[1].speed, 100, 0.5);
+  EXPECT_TRUE(lathe.core.take_events().empty());
+}
+
+TEST(CoupledStop, ARequestThatIsBackBeforeRestContinuesAtSpeed) {
+  Lathe lathe;
+  lathe.core.set_enables({1, 1}, true);
+  lathe.core.set_spindle_couplings({});
+  for (int i = 0; i < 400; ++i) lathe.step();
+  lathe.core.set_enables({1, 1}, false);
+  lathe.core.set_spindle_couplings({});
+  for (int i = 0; i < 100; ++i) lathe.step();
+  lathe.core.set_spindle_couplings({following(IntegralAction::INTEGRAL_FROZEN)});
+  for (int i = 0; i < 2000; ++i) {
+    lathe.step();
+    ASSERT_EQ(lathe.slave().condition, SpindleCondition::SPINDLE_SYNCHRONIZED) << i;
+  }
+  EXPECT_NEAR(lathe.status.spindles[1].speed, 2000, 0.5);
+  EXPECT_LT(lathe.most, window);
+}
+
+TEST(CoupledStop, ADriveContinuesToTheRestOfAWithdrawnRequestWithTheSameBits) {
+  Lathe one, other;
+  one.core.set_enables({1, 1}, true);
+  one.core.set_spindle_couplings({});
+  for (int i = 0; i < 400; ++i) one.step();
+  one.core.set_enables({1, 1}, false);
+  one.core.set_spindle_couplings({});
+  one.core.set_spindle_speed({600, 100});
+  for (int i = 0; i < 10; ++i) one.step();
+  const auto state = one.core.explicit_state();
+  other.core.continue_from(bus::Json::parse(bus::text_of(state)));
+  EXPECT_EQ(bus::text_of(other.core.explicit_state()), bus::text_of(state));
+  for (int i = 0; i < 1500; ++i) {
+    one.core.step(), other.core.step();
+    one.look(), other.look();
+    ASSERT_EQ(other.feedback, one.feedback) << i;
+  }
+  EXPECT_EQ(one.slave().master, -1);
+  EXPECT_EQ(bus::text_of(other.core.explicit_state()), bus::text_of(one.core.explicit_state()));
+}
+
 TEST(CoupledStop, ADriveContinuesARunDownWithTheSameBits) {
   Lathe one, other;
   one.core.set_enables({1, 1}, true);
@@ -312,6 +372,43 @@ TEST(CoupledStop, ANewDriveBeginsWhenBothAreAtRest) {
   EXPECT_EQ(given.ordered(0), 2);
   EXPECT_EQ(given.ordered(1), 2);
   EXPECT_TRUE(given.core.take_events().empty());
+}
+
+// It would keep both at rest otherwise, without an alarm.
+TEST(CoupledStop, ARefusedRequestIsJudgedAgainWhenTheDrivesComeOn) {
+  Given given(turning(0, 0));
+  given.core.set_spindle_couplings({});
+  given.hardware->spindle[1].homed = false;
+  given.periods(2);
+  given.core.set_spindle_couplings({following()});
+  given.periods(2);
+  ASSERT_EQ(given.core.take_events().size(), 1u);
+  EXPECT_EQ(given.coupled_with(), -1);
+  given.hardware->spindle[1].homed = true;
+  given.core.set_enables({1, 1}, true);
+  given.periods(3);
+  EXPECT_FALSE(given.hardware->newest.enable);
+  given.core.set_enables({1, 1}, false);
+  given.periods(100);
+  EXPECT_EQ(given.coupled_with(), 0);
+  EXPECT_EQ(given.ordered(0), 200);
+  EXPECT_EQ(given.ordered(1), 200);
+  EXPECT_TRUE(given.core.take_events().empty());
+}
+
+TEST(CoupledStop, ARequestThatMakesNoSenseKeepsNoSpindleAtRest) {
+  Given given;
+  given.core.set_spindle_couplings({{5, 0, false, 0, IntegralAction::INTEGRAL_ACTIVE}});
+  for (int i = 0; i < 2; ++i) {
+    given.core.set_enables({1, 1}, false);
+    given.periods(3);
+    EXPECT_EQ(given.ordered(0), 200);
+    const auto events = given.core.take_events();
+    ASSERT_EQ(events.size(), 1u) << "each time that the drives come on";
+    EXPECT_EQ(events[0].alarm, &alarm::synchronization_lost);
+    given.core.set_enables({1, 1}, true);
+    given.periods(3);
+  }
 }
 
 TEST(CoupledStop, ARequestThatComesUnderControlBeginsAtSpeed) {

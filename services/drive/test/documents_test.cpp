@@ -41,5 +41,10 @@ TEST(Documents, TheTimeThatSynchronizedSpindlesHaveToComeToRestIsTheOneOfTheCode
       std::string::npos);
 }
 
+TEST(Documents, TheTimeThatASpindleHasToComeToItsAngleIsTheOneOfTheCode) {
+  EXPECT_NE(document("drives.md").find(fmt::format("{:g} s and two turns at 10a947", orientation_timeout)),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace trunnion::drive

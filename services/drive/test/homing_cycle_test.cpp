@@ -272,5 +272,142 @@ TEST_F(DeadSwitch, AContinuedDriveEndsTheSearchOfTheSameChannel) {
   EXPECT_LT(other.commands()[0], 50 * 0.102 + 0.417);
 }
 
+// X (0) of channel 0, Z (1) of channel 1. X begins 5 mm before its switch, Z 3 mm.
+struct SearchesOfTwoChannels : ::testing::Test {
+  DriveCore core{std::make_unique<SimulatedHardware>()};
+  static machine::Parameters parameters() {
+    machine::Parameters p;
+    p.values[40001] = {0, ""}, p.values[41001] = {1, ""};
+    for (const std::uint32_t axis : {0u, 1u}) {
+      p.values[100000 + axis * 1000] = {0, axis == 0 ? "X" : "Z"};
+      p.values[100006 + axis * 1000] = {500, ""}, p.values[100007 + axis * 1000] = {-500, ""};
+      p.values[100920 + axis * 1000] = {1, ""};
+      p.values[100012 + axis * 1000] = {axis == 0 ? 5.0 : 3.0, ""};
+    }
+    return p;
+  }
+  explicit SearchesOfTwoChannels(bool homed_before = false) : homed(homed_before) {}
+  void SetUp() override {
+    core.configure(parameters(), true);
+    Memory memory = core.memory();
+    for (const std::size_t axis : {0u, 1u}) memory.position[axis] = 0, memory.homed[axis] = homed ? 1 : 0;
+    core.restore(memory);
+    core.set_enables({1, 1}, false);
+  }
+  void request(std::uint16_t channel, std::uint32_t number, StreamRequestKind kind, std::uint16_t axis = 0) {
+    core.request({channel, number, kind, 1, axis});
+  }
+  void run() {
+    while (core.can_step(false)) core.step();
+  }
+  static idl::stream::ChannelEcho echo_of(DriveCore& drive, std::size_t channel) {
+    idl::stream::Feedback feedback;
+    drive.fill(feedback);
+    return feedback.channels.at(channel);
+  }
+  idl::stream::ChannelEcho echo(std::size_t channel) { return echo_of(core, channel); }
+  void begin_both() {
+    request(0, 1, StreamRequestKind::HOME, 0);
+    request(1, 1, StreamRequestKind::HOME, 1);
+    for (int i = 0; i < 20; ++i) core.step();
+  }
+  void expect_refused() {
+    EXPECT_EQ(echo(1).request, 1u);
+    EXPECT_EQ(echo(1).search, ReferenceSearch::SEARCH_FAILED);
+    EXPECT_NEAR(core.commands()[1], 0, 0.001) << "it does not begin behind the stop";
+  }
+  const bool homed;
+};
+
+TEST_F(SearchesOfTwoChannels, TheSecondSearchBeginsWhenTheFirstOneHasEnded) {
+  request(0, 1, StreamRequestKind::HOME, 0);
+  request(1, 7, StreamRequestKind::HOME, 1);
+  EXPECT_EQ(echo(1).request, 0u) << "it is answered when it begins";
+  EXPECT_EQ(echo(1).search, ReferenceSearch::NO_SEARCH);
+  while (echo(1).request == 0 && core.can_step(false)) {
+    EXPECT_EQ(core.commands()[1], 0) << "one axis at a time";
+    core.step();
+  }
+  EXPECT_EQ(core.mode(), Mode::HOMING);
+  EXPECT_EQ(echo(0).search, ReferenceSearch::REFERENCE_FOUND);
+  EXPECT_EQ(echo(1).request, 7u);
+  EXPECT_EQ(echo(1).search, ReferenceSearch::SEARCHES);
+  // The first channel demands its next axis meanwhile: here the same one again.
+  request(0, 2, StreamRequestKind::HOME, 0);
+  run();
+  EXPECT_EQ(core.mode(), Mode::FOLLOWING);
+  EXPECT_EQ(echo(0).request, 2u);
+  for (const std::size_t channel : {0u, 1u})
+    EXPECT_EQ(echo(channel).search, ReferenceSearch::REFERENCE_FOUND);
+  EXPECT_NEAR(core.commands()[1], 3, 0.01);
+  EXPECT_TRUE(core.unreferenced().empty());
+  EXPECT_TRUE(core.take_events().empty());
+}
+
+TEST_F(SearchesOfTwoChannels, ALeaveOfItsChannelEndsASearchThatWaits) {
+  request(0, 1, StreamRequestKind::HOME, 0);
+  request(1, 1, StreamRequestKind::HOME, 1);
+  request(1, 2, StreamRequestKind::LEAVE);
+  EXPECT_EQ(echo(1).request, 2u);
+  EXPECT_EQ(echo(1).search, ReferenceSearch::SEARCH_FAILED);
+  run();
+  EXPECT_EQ(echo(0).search, ReferenceSearch::REFERENCE_FOUND) << "the other one goes on";
+  EXPECT_EQ(core.commands()[1], 0);
+}
+
+TEST_F(SearchesOfTwoChannels, AStopForAnAlarmEndsThoseThatWaitToo) {
+  begin_both();
+  core.stop();
+  run();
+  EXPECT_EQ(core.mode(), Mode::FOLLOWING);
+  expect_refused();
+}
+
+TEST_F(SearchesOfTwoChannels, AnEmergencyStopEndsThoseThatWaitToo) {
+  begin_both();
+  core.set_enables({1, 1}, true);
+  run();
+  EXPECT_EQ(core.mode(), Mode::OFF);
+  expect_refused();
+}
+
+TEST_F(SearchesOfTwoChannels, AContinuedDriveBeginsTheSearchThatWaitsWithTheSameBits) {
+  request(0, 1, StreamRequestKind::HOME, 0);
+  request(1, 1, StreamRequestKind::HOME, 1);
+  for (int i = 0; i < 100; ++i) core.step();
+  DriveCore other{std::make_unique<SimulatedHardware>()};
+  other.configure(parameters(), true);
+  other.continue_from(core.explicit_state());
+  other.request({1, 1, StreamRequestKind::HOME, 1, 1});  // it is the newest on its topic
+  EXPECT_EQ(echo_of(other, 1).request, 0u) << "it waits still";
+  EXPECT_EQ(echo_of(other, 1).search, ReferenceSearch::NO_SEARCH);
+  while (core.can_step(false)) {
+    ASSERT_TRUE(other.can_step(false));
+    core.step(), other.step();
+    ASSERT_EQ(other.commands(), core.commands());
+  }
+  EXPECT_EQ(echo_of(other, 1).request, 1u);
+  EXPECT_EQ(echo_of(other, 1).search, ReferenceSearch::REFERENCE_FOUND);
+}
+
+struct TwoReferencedChannels : SearchesOfTwoChannels {
+  TwoReferencedChannels() : SearchesOfTwoChannels(true) {}
+};
+
+// The program of that channel would find no place in the stream behind its next pause.
+TEST_F(TwoReferencedChannels, NoSearchBeginsWhileAnotherChannelMoves) {
+  request(0, 1, StreamRequestKind::NEW_EPOCH);
+  ASSERT_TRUE(core.any_active());
+  request(1, 1, StreamRequestKind::HOME, 1);
+  EXPECT_EQ(core.mode(), Mode::FOLLOWING);
+  EXPECT_EQ(echo(1).request, 1u);
+  EXPECT_EQ(echo(1).search, ReferenceSearch::SEARCH_FAILED);
+  const auto events = core.take_events();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].alarm, &alarm::homing_failed);
+  EXPECT_EQ(events[0].text,
+            "Axis Z was not homed: another channel moves its axes. Wait until it has ended, then home again");
+}
+
 }  // namespace
 }  // namespace trunnion::drive::homing_test

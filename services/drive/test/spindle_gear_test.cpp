@@ -3,23 +3,25 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace trunnion::drive {
 namespace {
 
-TEST(SpindleGear, LimitsTheSpeedToTheHighestOfTheGearInForce) {
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+TEST(SpindleGear, HasTheHighestSpeedOfTheGearInForce) {
   machine::Parameters p;
   p.values[105985] = {500, ""}, p.values[105986] = {3000, ""};  // M41 and M42
   SpindleGear gear;
   gear.configure(gear_speeds(p, 5));
   EXPECT_EQ(gear.in_force(), 0);
-  EXPECT_EQ(gear.limited(4000), 4000) << "without a gear";
+  EXPECT_EQ(gear.highest(), no_limit) << "without a gear";
   gear.engage(1);
   EXPECT_EQ(gear.in_force(), 1);
-  EXPECT_EQ(gear.limited(300), 300);
-  EXPECT_EQ(gear.limited(2000), 500);
-  EXPECT_EQ(gear.limited(-2000), -500);
+  EXPECT_EQ(gear.highest(), 500);
   gear.engage(2);
-  EXPECT_EQ(gear.limited(-4000), -3000);
+  EXPECT_EQ(gear.highest(), 3000);
 }
 
 TEST(SpindleGear, OneThatDoesNotExistIsASpindleWithoutGears) {
@@ -30,7 +32,7 @@ TEST(SpindleGear, OneThatDoesNotExistIsASpindleWithoutGears) {
   for (const std::uint8_t missing : {std::uint8_t{2}, std::uint8_t{5}, std::uint8_t{6}, std::uint8_t{255}}) {
     gear.engage(missing);
     EXPECT_EQ(gear.in_force(), 0);
-    EXPECT_EQ(gear.limited(4000), 4000);
+    EXPECT_EQ(gear.highest(), no_limit);
   }
 }
 

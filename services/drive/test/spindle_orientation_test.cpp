@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "simulated_spindle.hpp"
+#include "snapshot/fields.hpp"
 #include "spindle_orientation.hpp"
 
 namespace trunnion::drive {
@@ -243,6 +245,50 @@ TEST(SpindleOrientation, IsNotLostBeforeTheSpindleHasArrived) {
   EXPECT_TRUE(orientation.oriented(standing_at(0.25)));
   for (std::uint32_t i = 0; i < orientation_lost_periods; ++i) orientation.step({}, standing_at(0.26), true);
   EXPECT_TRUE(orientation.lost());
+}
+
+// 25 s and two turns at 100 1/min, 1.2 s.
+TEST(SpindleOrientation, IsLateOnceWhenTheSpindleDoesNotArrive) {
+  SpindleOrientation orientation;
+  orientation.configure({90, 0.1, 100, acceleration}, period);
+  EXPECT_NEAR(orientation.time_limit(), 26.2, 1e-9);
+  const auto late_in = [&](int periods, const SpindleStatus& status) {
+    std::vector<int> late;
+    for (int i = 1; i <= periods; ++i) {
+      orientation.step({}, status, true);
+      if (orientation.late()) late.push_back(i);
+    }
+    return late;
+  };
+  const std::vector<int> once{26200}, never;
+  orientation.demand(true);
+  EXPECT_EQ(late_in(60000, standing_at(0)), once) << "it is stuck";
+  orientation.acknowledge();
+  EXPECT_EQ(late_in(60000, standing_at(0)), once) << "it is still";
+  orientation.demand(true, 180);
+  EXPECT_EQ(late_in(60000, standing_at(0)), once) << "at another angle, too";
+  orientation.demand(false);
+  EXPECT_EQ(late_in(60000, standing_at(0)), never);
+  orientation.demand(true, 90);
+  SpindleStatus without_mark = standing_at(0);
+  without_mark.homed = false, without_mark.speed = 100;
+  EXPECT_EQ(late_in(60000, without_mark), once) << "the index mark does not pass";
+  orientation.demand(false);
+  orientation.step({}, standing_at(0), true);
+  orientation.demand(true, 90);
+  EXPECT_EQ(late_in(26199, standing_at(0)), never);
+  EXPECT_EQ(late_in(60000, standing_at(0.25)), never) << "it has arrived";
+}
+
+TEST(SpindleOrientation, ContinuesWithTheTimeThatHasPassed) {
+  SpindleOrientation orientation, other;
+  for (auto* one : {&orientation, &other}) one->configure({90, 0.1, 100, acceleration}, period);
+  orientation.demand(true);
+  for (int i = 0; i < 26199; ++i) orientation.step({}, standing_at(0), true);
+  snapshot::read(snapshot::written(orientation), other);
+  EXPECT_FALSE(other.late());
+  other.step({}, standing_at(0), true);
+  EXPECT_TRUE(other.late());
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "bus/json.hpp"
 #include "simulated_spindle.hpp"
+#include "snapshot/fields.hpp"
 #include "spindle_coupling.hpp"
 
 namespace trunnion::drive {
@@ -55,6 +58,65 @@ TEST(Spindle, FollowsAnAngleFromItsPlaceAndStaysThereWhenReleased) {
   const double end = s.angle();
   for (int i = 0; i < 10; ++i) s.step(true);
   EXPECT_NEAR(s.angle(), end, 1e-3);
+}
+
+/// A coupled spindle whose following error is limited to 2 deg; 0.01 rev in a period are 3.6 deg.
+struct Supervised {
+  Supervised() {
+    coupling.configure(2);
+    EXPECT_FALSE(period(0, 0));
+  }
+  /// The path goes on by `step` rev, and the spindle is at `angle` at the end of the period.
+  bool period(double step, double angle, bool whole = true) {
+    turned += step;
+    coupling.couple(turned, 0);
+    ++number;
+    return coupling.does_not_follow(number, number, angle, whole);
+  }
+  SpindleCoupling coupling;
+  std::uint64_t number = 0;
+  double turned = 0;
+};
+
+TEST(Spindle, MayBeOnItsPathThreePeriodsLateAndBesideItByItsLimit) {
+  Supervised s;
+  for (int i = 0; i < 10; ++i)
+    EXPECT_FALSE(s.period(0.01, std::max(0.0, s.turned - 0.02))) << "three periods of 0.01";
+  EXPECT_FALSE(s.period(0.01, s.turned - 0.02 - 0.005)) << "1.8 deg more";
+  // From then on it stands at 0.075: its path is at 0.12, and was at 0.09 three periods before.
+  EXPECT_TRUE(s.period(0.01, 0.075));
+  EXPECT_NEAR(s.coupling.following_error(), 5.4, 1e-9);
+  EXPECT_FALSE(s.period(0.01, 0.075)) << "once";
+  EXPECT_FALSE(s.period(0.01, s.turned + 0.01)) << "it follows again";
+  EXPECT_TRUE(s.period(0, s.turned + 0.006)) << "2.16 deg before its path";
+  EXPECT_NEAR(s.coupling.following_error(), -2.16, 1e-9);
+}
+
+// 1000 1/min are 6 deg in a period.
+TEST(Spindle, ATurningSpindleThatIsCoupledIsNotOnItsPath) {
+  Supervised s;
+  EXPECT_TRUE(s.period(0, 1.0 / 60));
+  s.coupling.release();
+  EXPECT_FALSE(s.coupling.does_not_follow(3, 3, 0.5, true)) << "it follows nothing any longer";
+  EXPECT_EQ(s.coupling.following_error(), 0);
+  Supervised without;
+  without.coupling.configure(0);
+  EXPECT_FALSE(without.period(0, 0.5));
+}
+
+TEST(Spindle, HasTimeToComeBackBehindAStopOnThePath) {
+  Supervised s;
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(s.period(0.01, 0, false));
+  for (int i = 0; i < 249; ++i) ASSERT_FALSE(s.period(0, 0)) << i;
+  const auto state = snapshot::written(s.coupling);
+  SpindleCoupling other;
+  other.configure(2);
+  snapshot::read(bus::Json::parse(bus::text_of(state)), other);
+  EXPECT_EQ(snapshot::written(other), state);
+  EXPECT_TRUE(other.does_not_follow(1000, 1000, 0, true)) << "another process continues there";
+  EXPECT_TRUE(s.period(0, 0)) << "250 periods";
+  EXPECT_FALSE(s.period(0, s.turned));
+  EXPECT_FALSE(snapshot::written(s.coupling).contains("returning"));
 }
 
 TEST(Spindle, BetweenTwoSetpointsItIsInProportionAsTheAxesAre) {

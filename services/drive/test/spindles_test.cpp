@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -152,6 +154,28 @@ TEST(Spindles, AGearLimitsTheCommandedSpeedAndIsHandedToTheHardware) {
   EXPECT_EQ(s.row[0].speed, 2000);
 }
 
+// Each by its own 10a948, whatever orders it. At the centre a surface speed is the limit of its order.
+TEST(Spindles, TheHighestSpeedLimitsEveryOrder) {
+  auto p = one_spindle();
+  p.values[105948] = {3000, ""};
+  OneSpindle s(p);
+  s.status[0].speed = 3000;
+  s.spindles.demand_speeds({2999});
+  s.step();
+  EXPECT_EQ(s.row[0].speed, 2999);
+  s.spindles.demand_speeds({5000});
+  EXPECT_EQ(s.step().condition, SpindleCondition::SPINDLE_AT_SPEED);
+  EXPECT_EQ(s.row[0].speed, 3000);
+  s.spindles.demand_speeds({-5000});
+  s.step();
+  EXPECT_EQ(s.row[0].speed, -3000);
+  idl::plc::SurfaceSpeed surface;
+  surface.speed = 200, surface.limit = 6000, surface.radius = 0;
+  s.spindles.demand_surface_speeds({surface});
+  EXPECT_EQ(s.step().condition, SpindleCondition::SPINDLE_AT_SPEED);
+  EXPECT_EQ(s.row[0].speed, 3000);
+}
+
 // 20000 deg/s2 are 10 / 3 1/min in a period.
 TEST(Spindles, TheReferenceIsThatOfTheRamp) {
   auto p = one_spindle();
@@ -206,6 +230,35 @@ TEST(Spindles, AHeldSpindleThatLeavesItsWindowIsAnAlarm) {
   s.spindles.acknowledge();
   for (std::uint32_t i = 0; i < orientation_lost_periods; ++i) s.step();
   EXPECT_EQ(s.events().size(), 1u) << "it is out of its window still";
+}
+
+// 25 s and two turns at 100 1/min, 1.2 s.
+TEST(Spindles, AnOrientationThatDoesNotArriveIsAnAlarm) {
+  OneSpindle s;
+  const auto alarm_after = [&](std::uint32_t periods) {
+    std::string text;
+    for (std::uint32_t i = 1; i <= periods; ++i) {
+      s.step();
+      for (const auto& event : s.events()) {
+        EXPECT_EQ(event.alarm, &alarm::orientation_lost);
+        EXPECT_EQ(event.part, 5u);
+        EXPECT_EQ(i, 26200u);
+        text += event.text;
+      }
+    }
+    return text;
+  };
+  s.spindles.demand_orientations({1}, {90});
+  EXPECT_EQ(alarm_after(60000),
+            "Spindle S turns at 0 1/min and is -90.000 deg from its orientation angle 90.000 deg 26.2 s "
+            "after the order: see what blocks or drives it, then reset");
+  s.spindles.acknowledge();
+  s.status[0].homed = false;
+  EXPECT_EQ(alarm_after(60000),
+            "Spindle S turns at 0 1/min and has not passed its index mark 26.2 s after the order of its "
+            "orientation: see what blocks it, and its encoder, then reset");
+  s.spindles.demand_orientations({});
+  EXPECT_EQ(alarm_after(60000), "");
 }
 
 }  // namespace

@@ -2,6 +2,11 @@
 // What the drive does about an axis that does not follow.
 #include <gtest/gtest.h>
 
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "drive_core.hpp"
 #include "machine/alarm_constants.hpp"
 #include "queued_hardware.hpp"
@@ -185,6 +190,96 @@ TEST_F(Supervision, ASearchThatTheHardwareEndsHasFailed) {
   periods(1);
   EXPECT_EQ(core.mode(), Mode::OFF);
   EXPECT_EQ(search(), ReferenceSearch::SEARCH_FAILED);
+}
+
+/// A spindle follows the row in force, or the one `late` before, until it is jammed.
+class TurningHardware : public QueuedHardware {
+ public:
+  TurningHardware() : QueuedHardware(queue) {}
+  void exchange(const SetpointRow& row, DriveStatus& out, EncoderRowSink& rows) override {
+    coupled = row.spindles[0].coupled;
+    angles_.push_back(coupled ? row.spindles[0].angle : spindle[0].angle);
+    if (angles_.size() > queue + late) {
+      if (!jammed) spindle[0].angle = angles_.front();
+      angles_.pop_front();
+    }
+    QueuedHardware::exchange(row, out, rows);
+  }
+  std::size_t late = 0;
+  bool jammed = false, coupled = false;
+
+ private:
+  std::deque<double> angles_;
+};
+
+/// The spindle has axis 5, and its following error is limited to 2 deg. A revolution for 10 mm of X: 3.6 deg
+/// in a cycle.
+struct TapSupervision : ::testing::Test {
+  TurningHardware* hardware = new TurningHardware;
+  DriveCore core{std::unique_ptr<DriveHardware>(hardware)};
+  std::vector<DriveEvent> events;
+
+  void SetUp() override {
+    machine::Parameters p;
+    p.revision = 1;
+    p.values[40001] = {0, ""};
+    p.values[100000] = {0, "X"};
+    p.values[100034] = {60000, ""};
+    p.values[100036] = {4000, ""};
+    p.values[105000] = {0, "S"}, p.values[105001] = {machine::axis_type_spindle, ""};
+    p.values[105037] = {2, ""};
+    core.configure(p, false);
+    core.set_enables({1}, false);
+    core.request({0, 1, StreamRequestKind::NEW_EPOCH, 1, 0});
+    for (std::uint64_t first = 0; first < 1000; first += 8) {
+      AxisBatch f;
+      f.epoch = 1, f.first = first, f.count = 8, f.starts = first == 0, f.revision = 1, f.axes = {0};
+      f.spindle_axis = 5;
+      for (std::uint64_t n = first; n < first + 8; ++n) {
+        f.setpoints.push_back(Supervision::path(n));
+        f.spindle.push_back(Supervision::path(n) / 10);
+      }
+      f.states = {{idl::stream::Stage::KINEMATICS, first + 7, {}}};
+      ASSERT_TRUE(core.put(f));
+    }
+  }
+  void periods(int count) {
+    idl::stream::Feedback feedback;
+    for (int i = 0; i < count; ++i) {
+      core.step();
+      core.fill(feedback);
+    }
+    for (auto& event : core.take_events()) events.push_back(event);
+  }
+};
+
+TEST_F(TapSupervision, ASpindleThatFollowsItsPathSomePeriodsLateIsLeftAlone) {
+  hardware->late = 3;
+  periods(500);
+  EXPECT_TRUE(hardware->coupled);
+  EXPECT_TRUE(events.empty());
+  EXPECT_EQ(core.mode(), Mode::FOLLOWING);
+}
+
+// Braking takes 25 periods.
+TEST_F(TapSupervision, AJammedSpindleStopsTheAxesAndTheyDoNotGoOnWithoutIt) {
+  periods(300);
+  ASSERT_TRUE(events.empty());
+  hardware->jammed = true;
+  periods(100);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].alarm, &alarm::following_error);
+  EXPECT_EQ(events[0].part, 5u);
+  EXPECT_EQ(events[0].text.substr(0, 37), "Spindle S does not follow the axes: f") << events[0].text;
+  EXPECT_NE(events[0].text.find("parameter 105037"), std::string::npos) << events[0].text;
+  EXPECT_EQ(core.mode(), Mode::HELD);
+  core.acknowledge();
+  core.request({0, 2, StreamRequestKind::RESUME, 1, 0});
+  for (int i = 0; i < 1000 && core.mode() != Mode::FOLLOWING; ++i) periods(1);
+  ASSERT_EQ(core.mode(), Mode::FOLLOWING);
+  for (int i = 0; i < 1000 && core.mode() == Mode::FOLLOWING; ++i) periods(1);
+  EXPECT_EQ(events.size(), 2u);
+  EXPECT_EQ(core.mode(), Mode::BRAKING);
 }
 
 // Otherwise the alarm would come again with the reset, and whoever reset it would not see that it had ended.

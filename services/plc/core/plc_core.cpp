@@ -61,12 +61,18 @@ void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time
   }
   const auto spindles = machine::spindles(parameters);
   spindles_ = std::min(spindles.size(), spindle_count);
-  for (std::size_t s = 0; s < spindles_; ++s)
-    speed_window_[s] = parameters.get(parameter::speed_window, spindles[s].number) / 100;
+  for (std::size_t s = 0; s < spindles_; ++s) {
+    const auto number = spindles[s].number;
+    speed_window_[s] = parameters.get(parameter::speed_window, number) / 100;
+    highest_speed_[s] = parameters.get(parameter::maximum_speed, number);
+    for (std::uint32_t gear = 0; gear < gear_count; ++gear)
+      gear_speeds_[s][gear] = parameters.get(parameter::gear_highest_speed, number, gear);
+  }
   const bool continues = !configured() && memory_.tick > 0;  // what restore() has left to do counts
   period_us_ = static_cast<std::uint64_t>(parameters.integer(parameter::interpolation_cycle));
   main_part_ = parameters.integer(parameter::plc2_statements);
   view_.changed = view_.changed || !continues;
+  if (continues) restore_spindles();
 }
 
 void PlcCore::load(StructuredText structured) {
@@ -95,14 +101,13 @@ void PlcCore::actuate_switches(const std::vector<double>& position) {
 
 void PlcCore::restore(const Memory& memory) {
   memory_ = memory;
-  // What the drive holds by them is no new order.
-  for (std::size_t s = 0; s < spindle_count; ++s) view_.spindles[s].orientation = ordered_orientation(s);
-  if (!loaded_) return;
+  if (!loaded_) return restore_spindles();
   if (!structured_.fits(memory_.program)) drop_forces_of_variables();
   const auto before = memory_.program;
   structured_.restore(memory_.program);
   // The same programs have seen these inputs: one scan more would be one that nobody has asked for.
   view_.changed = memory_.program != before || memory_.tick == 0;
+  restore_spindles();
 }
 
 void PlcCore::power_up(const Memory& memory) {
@@ -217,7 +222,7 @@ void PlcCore::set_feedback(const idl::stream::Feedback& feedback) {
   input(drives_on_, !feedback.enabled.empty() && std::all_of(feedback.enabled.begin(), feedback.enabled.end(),
                                                              [](std::uint8_t on) { return on != 0; }));
   actuate_switches(feedback.position);
-  check_spindles();
+  if (configured()) check_spindles();
 }
 
 void PlcCore::set_alarms(bool any, bool stops) {

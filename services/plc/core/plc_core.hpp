@@ -19,8 +19,9 @@ namespace trunnion::plc {
 
 inline constexpr std::uint64_t main_period = 10;  ///< ms of the main task; the fast task runs every ms
 inline constexpr std::uint64_t most_catch_up =
-    200;                                  ///< scans at once; older ones are skipped, timers stay correct
-inline constexpr int most_settling = 16;  ///< scans at the same time until the image is stable
+    200;                                      ///< scans at once; older ones are skipped, timers stay correct
+inline constexpr int most_settling = 16;      ///< scans at the same time until the image is stable
+inline constexpr std::size_t gear_count = 5;  ///< of a spindle, M41 .. M45
 
 /// Of m_angle and spindle_orient_angle: none.
 inline constexpr std::int32_t no_angle = 65535;
@@ -160,6 +161,8 @@ class PlcCore {
   void set_strobes(bool present);
   void find_spindles();
   void take_spindles(const idl::stream::Feedback& feedback);
+  void restore_spindles();
+  double reachable_speed(std::size_t spindle) const;
   void check_spindles();
   bool check_orientation(std::size_t spindle);
   void check_coupling(std::size_t spindle);
@@ -192,7 +195,9 @@ class PlcCore {
   std::vector<st::PositionSwitch> switches_;
   st::MessageFile messages_;
   std::size_t spindles_ = 0;
-  std::array<double, spindle_count> speed_window_{};  ///< share of the commanded speed: 10a970
+  std::array<double, spindle_count> speed_window_{};   ///< share of the commanded speed: 10a970
+  std::array<double, spindle_count> highest_speed_{};  ///< 1/min: 10a948; 0: no limit
+  std::array<std::array<double, gear_count>, spindle_count> gear_speeds_{};  ///< 1/min: 10a985 ..; 0: no gear
   std::uint64_t period_us_ = 0;
   std::int64_t main_part_ = StructuredText::most_statements;  ///< statements of the main task in one scan
   Memory memory_;

@@ -91,6 +91,35 @@ void PlcCore::take_spindles(const idl::stream::Feedback& feedback) {
   }
 }
 
+// The outputs order the same as before, and what the drive holds by them is no new order. What it has said of
+// them is in the inputs.
+void PlcCore::restore_spindles() {
+  const auto& r = memory_.registers;
+  for (std::size_t s = 0; s < spindle_count; ++s) {
+    auto& spindle = view_.spindles[s];
+    const auto& symbols = spindle_symbols_[s];
+    spindle = {};
+    spindle.orientation = ordered_orientation(s);
+    const bool orients = plc::load(r, symbols.orient) != 0 && !emergency_stop();
+    view_.orients[s] = orients;
+    view_.oriented[s] = orients && plc::load(r, symbols.oriented) != 0;
+    view_.orient_since[s] = orients ? memory_.scans : 0;
+    if (const auto master = ordered_master(s); master != 0) {
+      spindle.master = master;
+      spindle.reverse = plc::load(r, symbols.reverse) != 0;
+      spindle.coupling_angle = plc::load(r, symbols.master_angle);
+      spindle.coupling_since = memory_.scans;
+      spindle.synchronized = plc::load(r, symbols.synchronized) != 0;
+      spindle.new_angle = !spindle.synchronized;
+    }
+    const bool on = plc::load(r, symbols.enable) != 0 && !orients && !emergency_stop();
+    if (on) spindle.surface = ordered_surface_speed(s);
+    if (spindle.surface.speed == 0) continue;
+    spindle.surface_reached = plc::load(r, symbols.at_speed) != 0;
+    spindle.new_surface = !spindle.surface_reached;
+  }
+}
+
 std::int32_t PlcCore::ordered_orientation(std::size_t s) const {
   const auto& symbols = spindle_symbols_[s];
   const auto angle = plc::load(memory_.registers, symbols.orient_angle);
@@ -108,12 +137,30 @@ std::uint8_t PlcCore::ordered_master(std::size_t s) const {
 
 bool PlcCore::follows(std::size_t s) const { return view_.spindles[s].master != 0; }
 
+// 1/min: what the drive makes of the command, within 10a948. A master turns no faster than its slaves may.
+double PlcCore::reachable_speed(std::size_t s) const {
+  double speed = memory_.spindle_command[s];
+  const auto limit = [&](double highest) {
+    if (highest > 0) speed = std::clamp(speed, -highest, highest);
+  };
+  limit(highest_speed_[s]);
+  for (std::size_t k = 0; k < spindles_; ++k) {
+    const auto& slave = view_.spindles[k];
+    if (!slave.synchronized || std::size_t{slave.master} != s + 1) continue;
+    limit(highest_speed_[k]);
+    const auto gear = plc::load(memory_.registers, spindle_symbols_[k].gear);
+    if (gear >= 1 && static_cast<std::size_t>(gear) <= gear_count)
+      limit(gear_speeds_[k][static_cast<std::size_t>(gear) - 1]);
+  }
+  return speed;
+}
+
 bool PlcCore::at_speed(std::size_t s) const {
   if (s >= spindles_) return true;
   if (s >= view_.spindles_received) return view_.drive_seen;
   if (follows(s)) return view_.spindles[s].synchronized;
   if (view_.spindles[s].surface.speed != 0) return view_.spindles[s].surface_reached;
-  const double command = memory_.spindle_command[s];
+  const double command = reachable_speed(s);
   return std::abs(view_.spindle_actual[s] - command) <=
          std::max(speed_window_[s] * std::abs(command), slowest_tolerance);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
 
 #include "core_bench.hpp"
 
@@ -13,6 +14,16 @@ using idl::stream::SpindleCondition;
 
 std::int32_t value_of(const Bench& bench, const char* name, std::size_t index) {
   return load(bench.core.memory().registers, interface_address(name, index));
+}
+
+/// After a kill of the process of `bench`, as the service does it: the memory is there before the parameters,
+/// and neither the programs have run nor has the drive said anything.
+PlcCore restarted(const Bench& bench, const std::string& machine = "two-channel") {
+  PlcCore core;
+  load_programs(std::string(TRUNNION_MACHINES) + "/" + machine + "/plc", core);
+  core.restore(bench.core.memory());
+  core.configure(two_axes_and_spindles(), true);
+  return core;
 }
 
 /// As a program that writes the register in every scan.
@@ -65,12 +76,18 @@ TEST(Spindles, ARestartedProcessKeepsTheAngleThatIsHeld) {
   Bench bench("ac-table");
   bench.request_angle(19, 90);
   bench.run();
+  ASSERT_EQ(value_of(bench, "spindle_oriented", 0), 1);
+  const auto at_once = restarted(bench, "ac-table").outputs();
+  EXPECT_EQ(at_once.spindle_orient, (std::vector<std::uint8_t>{1, 0}));
+  EXPECT_EQ(at_once.spindle_angle, (std::vector<double>{90, -1}));
   Bench again("ac-table", false);
   again.core.restore(bench.core.memory());
+  EXPECT_EQ(again.core.outputs().spindle_orient, at_once.spindle_orient) << "also with parameters before it";
   again.tick = bench.tick;
   again.feedback();
   EXPECT_EQ(again.core.outputs().spindle_orient[0], 1);
   EXPECT_EQ(again.core.outputs().spindle_angle, (std::vector<double>{90, -1}));
+  EXPECT_EQ(value_of(again, "spindle_oriented", 0), 1);
 }
 
 // What the drive says counts once it has said something else, or after 100 ms.
@@ -120,6 +137,22 @@ TEST(Spindles, ASurfaceSpeedIsInTheOutputsInPlaceOfASpeedWhileTheSpindleTurns) {
   outputs = bench.core.outputs();
   EXPECT_TRUE(outputs.surface_speeds.empty());
   EXPECT_EQ(outputs.spindle_speed[0], -600);
+}
+
+TEST(Spindles, ARestartedProcessOrdersASurfaceSpeedBeforeItHasHeardTheDrive) {
+  Bench bench;
+  bench.spindles.resize(2);
+  bench.request_surface(200, 3000, 40);
+  bench.run();
+  bench.request(AuxiliaryKind::M, 3);
+  bench.spindles[0].condition = SpindleCondition::SPINDLE_AT_SPEED;
+  bench.run();
+  ASSERT_TRUE(bench.done());
+  const auto before = bench.core.outputs();
+  ASSERT_EQ(before.surface_speeds.size(), 1u);
+  const auto at_once = restarted(bench).outputs();
+  EXPECT_EQ(at_once.surface_speeds, before.surface_speeds);
+  EXPECT_EQ(at_once.spindle_speed, before.spindle_speed);
 }
 
 // Spindle 1 follows X of channel 1: `spindle_surface_channel_1` of the main task.
@@ -210,6 +243,44 @@ TEST(Spindles, AnOrderIsCarriedOutByTheProgramsThatKnowOne) {
   EXPECT_TRUE(other.finished.back().failed);
 }
 
+// Outputs without the coupling would end it in the drive while the spindles turn.
+TEST(Spindles, ARestartedProcessOrdersASynchronizationBeforeItHasHeardTheDrive) {
+  Bench bench;
+  bench.spindles.resize(2);
+  bench.spindles[0].master = -1;
+  bench.spindles[1] = slave(SpindleCondition::SPINDLE_SYNCHRONIZING);
+  write(bench, "spindle_master_angle", 1, 9000);
+  write(bench, "spindle_reverse", 1, 1);
+  write(bench, "spindle_integral", 1, 2);
+  write(bench, "spindle_master", 1, 1);
+  bench.feedback();
+  bench.spindles[1] = slave(SpindleCondition::SPINDLE_SYNCHRONIZED);
+  bench.feedback();
+  ASSERT_EQ(value_of(bench, "spindle_synchronized", 1), 1);
+  const auto before = bench.core.outputs();
+  ASSERT_EQ(before.spindle_couplings.size(), 1u);
+  auto core = restarted(bench);
+  EXPECT_EQ(core.outputs().spindle_couplings, before.spindle_couplings);
+
+  // What it hears first is what it knew: the programs see no change of it.
+  idl::stream::Feedback feedback;
+  feedback.tick = bench.tick;
+  feedback.spindle_speed = {0, 0};
+  feedback.spindles = bench.spindles;
+  core.set_feedback(feedback);
+  EXPECT_EQ(load(core.memory().registers, interface_address("spindle_synchronized", 1)), 1);
+  EXPECT_EQ(core.outputs().spindle_couplings, before.spindle_couplings);
+
+  // Feedback that comes before the parameters is no order, and changes no input of a spindle.
+  PlcCore early;
+  load_programs(TRUNNION_MACHINES "/two-channel/plc", early);
+  early.restore(bench.core.memory());
+  early.set_feedback(feedback);
+  early.configure(two_axes_and_spindles(), true);
+  EXPECT_EQ(early.outputs().spindle_couplings, before.spindle_couplings);
+  EXPECT_EQ(load(early.memory().registers, interface_address("spindle_synchronized", 1)), 1);
+}
+
 // Time runs on until the drive says so: the main task runs every 10 ms.
 TEST(Spindles, ASlaveIsAtSpeedWhenItIsSynchronized) {
   Bench bench;
@@ -263,6 +334,42 @@ TEST(Spindles, TheWindowOfTheSpeedIsAParameter) {
   bench.speed[0] = 985;
   bench.feedback();
   EXPECT_TRUE(bench.done());
+}
+
+// The drive turns a spindle no faster than its 10a948, and a master no faster than its slaves may.
+TEST(Spindles, AnOrderAboveTheHighestSpeedIsReachedAtTheHighestSpeed) {
+  Bench bench;
+  auto parameters = two_axes_and_spindles();
+  parameters.values[110948] = {900, ""};
+  parameters.values[111948] = {700, ""}, parameters.values[111985] = {500, ""};
+  bench.core.configure(parameters, true);
+  bench.request(AuxiliaryKind::S, 0, 1000);
+  bench.request(AuxiliaryKind::M, 4);
+  EXPECT_EQ(bench.core.outputs().spindle_speed[0], -1000) << "the limit is the drive's";
+  bench.speed[0] = -800;
+  bench.feedback();
+  EXPECT_FALSE(bench.done());
+  bench.speed[0] = -900;
+  bench.feedback();
+  EXPECT_TRUE(bench.done());
+
+  bench.spindles.resize(2);
+  bench.spindles[0].master = -1;
+  bench.spindles[1] = slave(SpindleCondition::SPINDLE_SYNCHRONIZING);
+  write(bench, "spindle_master", 1, 1);
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_at_speed", 0), 1) << "the slave does not follow yet";
+  bench.spindles[1] = slave(SpindleCondition::SPINDLE_SYNCHRONIZED);
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_at_speed", 0), 0);
+  bench.speed[0] = -700;
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_at_speed", 0), 1);
+  write(bench, "spindle_gear", 1, 1);
+  EXPECT_EQ(value_of(bench, "spindle_at_speed", 0), 0);
+  bench.speed[0] = -500;
+  bench.feedback();
+  EXPECT_EQ(value_of(bench, "spindle_at_speed", 0), 1);
 }
 
 // 2.25 turns are 90 deg; 0.999999 turns are 359.9996 deg, which rounds to 0.

@@ -1,6 +1,5 @@
 %
-(homes every axis: first Z, which takes the tool out of the way)
-G28.2 Z0
-G28.2 X0 Y0
+(homes every axis in the order of O9990)
+M98 P9990
 M30
 %

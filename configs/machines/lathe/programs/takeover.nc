@@ -29,6 +29,8 @@ G95
 G0 Z-55
 X44
 G1 X-1 F0.1
+(It is separate: without M85, M84 waits for the spindles to stand)
+M85
 G0 X60
 M9
 G53 G0 X300

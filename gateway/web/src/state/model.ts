@@ -65,10 +65,16 @@ export interface AxisRow {
   /** Share of the rated torque, whatever its direction. */
   load: number | undefined;
   enabled: boolean | undefined;
+  /** It has its reference. */
+  homed: boolean;
 }
+
+/** Its drive raises it for each axis without a reference. */
+const notHomed = 115;
 
 /** One row of the position display per axis of the channel; what the drive has not reported yet is undefined. */
 export function axisRows(state: MachineState, channel: ChannelState): AxisRow[] {
+  const unreferenced = new Set(Object.values(state.alarms).filter((alarm) => alarm.number === notHomed).map((alarm) => alarm.part));
   return channel.axes.map((number, index) => {
     const letter = channel.letters[index] ?? "?";
     const axis = state.axes[String(number)];
@@ -83,6 +89,7 @@ export function axisRows(state: MachineState, channel: ChannelState): AxisRow[] 
       followingError: axis?.following_error,
       load: axis && Math.abs(axis.torque),
       enabled: axis?.enabled,
+      homed: channel.homed || !unreferenced.has(number),
     };
   });
 }

@@ -3,8 +3,9 @@ import { signal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { get } from "../api";
 import type { Parameter } from "../contract";
+import { homingBy, homingLine, type HomingWay, readHomingWay } from "../state/homing";
 import { JogHold } from "../state/jog";
-import { type AxisRow, axisRows, inhibition } from "../state/model";
+import { type AxisRow, axisRows, type Channel, inhibition } from "../state/model";
 import { channel, channelNumber, commandTo, machine, renewJog, stop } from "../state/store";
 import { text } from "../text/texts";
 
@@ -15,6 +16,8 @@ const increment = signal(0);
 const speed = signal(600);
 /** Jog speed of each axis at 100 %, parameter 10x032, by logical axis number. */
 const limits = signal<Record<number, number>>({});
+/** How the channel shown homes all its axes; null while that is not known. */
+const homing = signal<HomingWay | null>(null);
 
 async function loadLimits(axes: number[]): Promise<void> {
   const found: Record<number, number> = {};
@@ -23,6 +26,34 @@ async function loadLimits(axes: number[]): Promise<void> {
     if (answer.ok && answer.body) found[axis] = Number(answer.body.value);
   }
   limits.value = found;
+}
+
+/** One line of MDI: the channel carries it out to its end, also when this page is gone. */
+async function homeAll(number: number, way: HomingWay, letters: string): Promise<void> {
+  const what = text.peek().homeAllBy(homingBy(way, letters));
+  if (!(await commandTo(number, what, "mode", { mode: "MDI" }))) return;
+  await commandTo(number, what, "mdi", { line: homingLine(way, letters) });
+}
+
+/** Dark while the channel does something: the change of the mode would end the search of an axis. */
+function HomeAll({ channel: one }: { channel: Channel }) {
+  const t = text.value;
+  const inhibited = inhibition(machine.value, one, "start", t.inhibitedByPlc);
+  const way = homing.value;
+  const by = way ? homingBy(way, one.letters) : "";
+  return (
+    <button
+      class="home-all"
+      data-test="home-all"
+      aria-label={by ? t.homeAllBy(by) : t.homeAll}
+      title={inhibited || by}
+      disabled={inhibited !== "" || way === null || one.state !== "IDLE"}
+      onClick={() => way && void homeAll(one.channel, way, one.letters)}
+    >
+      ⌂ {t.homeAll}
+      <small>{by}</small>
+    </button>
+  );
 }
 
 export function Jog() {
@@ -53,9 +84,18 @@ export function Jog() {
   const revision = machine.value.revisions.parameters;
   const axes = one?.axes.join();
   useEffect(() => void loadLimits(channel.peek()?.axes ?? []), [revision, axes]);
+  const reference = one?.mode === "REF";
+  const stored = machine.value.revisions.programs;
+  useEffect(() => {
+    let newest = true;
+    homing.value = null;
+    if (number !== null && reference) void readHomingWay(number).then((way) => newest && (homing.value = way));
+    return () => {
+      newest = false;
+    };
+  }, [number, reference, revision, stored]);
   if (!one) return null;
   const t = text.value;
-  const reference = one.mode === "REF";
   const inhibited = inhibition(machine.value, one, "manual", t.inhibitedByPlc);
   const usable = (one.mode === "JOG" || reference) && !inhibited;
 
@@ -100,14 +140,15 @@ export function Jog() {
             {direction(row, 1)}
             {reference ? (
               <button
-                class="home"
+                class={`home ${row.homed ? "" : "unreferenced"}`}
                 data-test={`reference-${row.letter}`}
-                aria-label={t.referenceAxis(row.letter)}
+                aria-label={`${t.referenceAxis(row.letter)}: ${row.homed ? t.referenced : t.notReferenced}`}
                 title={inhibited}
                 disabled={!usable}
                 onClick={() => void commandTo(one.channel, t.modeReference, "reference", { axis: row.index })}
               >
                 ⌂ {row.letter}
+                <small>{row.homed ? "✓" : "?"}</small>
               </button>
             ) : (
               <b>{row.letter}</b>
@@ -117,31 +158,37 @@ export function Jog() {
         ))}
       </div>
       <div class="jog-choice">
-        <label>
-          <span>{t.step}</span>
-          <select
-            aria-label={t.stepUnit}
-            title={usable ? t.stepUnit : t.chooseJog}
-            value={String(increment.value)}
-            onChange={(event) => (increment.value = Number(event.currentTarget.value))}
-          >
-            {increments.map((value) => (
-              <option key={value} value={String(value)}>
-                {value === 0 ? t.whileHeld : value}
-              </option>
-            ))}
-          </select>
-        </label>
-        <label>
-          <span>{t.speed}</span>
-          <select aria-label={t.speedUnit} title={t.speedUnit} value={String(speed.value)} onChange={(event) => (speed.value = Number(event.currentTarget.value))}>
-            {speeds.map((value) => (
-              <option key={value} value={String(value)}>
-                {value}
-              </option>
-            ))}
-          </select>
-        </label>
+        {reference ? (
+          <HomeAll channel={one} />
+        ) : (
+          <>
+            <label>
+              <span>{t.step}</span>
+              <select
+                aria-label={t.stepUnit}
+                title={usable ? t.stepUnit : t.chooseJog}
+                value={String(increment.value)}
+                onChange={(event) => (increment.value = Number(event.currentTarget.value))}
+              >
+                {increments.map((value) => (
+                  <option key={value} value={String(value)}>
+                    {value === 0 ? t.whileHeld : value}
+                  </option>
+                ))}
+              </select>
+            </label>
+            <label>
+              <span>{t.speed}</span>
+              <select aria-label={t.speedUnit} title={t.speedUnit} value={String(speed.value)} onChange={(event) => (speed.value = Number(event.currentTarget.value))}>
+                {speeds.map((value) => (
+                  <option key={value} value={String(value)}>
+                    {value}
+                  </option>
+                ))}
+              </select>
+            </label>
+          </>
+        )}
       </div>
     </section>
   );

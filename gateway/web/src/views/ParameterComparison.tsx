@@ -120,8 +120,8 @@ export function ParameterComparison({ comparison, choose, done, close }: Props) 
               <tr key={`${number}/${index}`} class={verdict === "differs" || verdict === "only-here" ? "" : "dead"} data-verdict={verdict}>
                 <td><button disabled={!parameter} onClick={() => choose(number)}>{sixDigits(number)}</button></td>
                 <td>{parameter ? title(parameter.name) : ""}</td>
-                <td class="right digits">{parameter ? String(storedValue(parameter)) : ""}</td>
-                <td class="right digits">{there}</td>
+                <td class="right digits" title={parameter ? String(storedValue(parameter)) : ""}>{parameter ? String(storedValue(parameter)) : ""}</td>
+                <td class="right digits" title={there}>{there}</td>
                 <td class="dim">{parameter ? unit(parameter.unit, t.or) : ""}</td>
                 <td>{saysOf(t, verdict, parameter)}</td>
               </tr>

@@ -47,8 +47,12 @@ export function Positions() {
       </div>
       <div class={`rows ${rows.length > 5 ? "many" : ""}`} tabIndex={0} role="region" aria-label={t.positions}>
         {rows.map((row) => (
-          <div class={`axis ${row.enabled === false ? "off" : ""}`} key={row.index} data-axis={row.letter}>
-            <span class="letter">{row.letter}</span>
+          <div
+            class={`axis ${row.enabled === false ? "off" : ""} ${row.homed ? "" : "unreferenced"}`}
+            key={row.index}
+            data-axis={row.letter}
+          >
+            <span class="letter" title={row.homed ? undefined : t.notReferenced}>{row.letter}</span>
             <span class="large digits" data-test={`position-${row.letter}`}>
               {fixed(workpieceLarge ? row.workpiece : row.machine)}
             </span>

@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { SpindleCondition, SpindleShown } from "../contract";
 import { fixed, whole } from "../format";
+import { spindleRows } from "../state/spindles";
 import { channel, machine } from "../state/store";
 import { text } from "../text/texts";
 
-function SpindleState({ spindle }: { spindle: SpindleShown }) {
+/** Two lines for each, whatever it does: nothing moves when a spindle begins to follow another one. */
+function Spindles() {
   const t = text.value;
-  const conditions: Record<SpindleCondition, string> = {
-    SPINDLE_STOPPED: t.spindleStopped,
-    SPINDLE_ACCELERATING: t.spindleAccelerating,
-    SPINDLE_AT_SPEED: t.spindleAtSpeed,
-    SPINDLE_POSITIONING: t.spindlePositioning,
-    SPINDLE_ORIENTED: t.spindleOriented,
-    SPINDLE_FOLLOWS_PATH: t.spindleFollowsPath,
-    SPINDLE_SYNCHRONIZING: t.spindleSynchronizing,
-    SPINDLE_SYNCHRONIZED: t.spindleSynchronized,
-  };
+  const rows = spindleRows(machine.value, t);
+  if (rows.length === 0) return null;
   return (
-    <span class="dim" data-test="spindle-state">
-      {conditions[spindle.condition]} · {spindle.homed ? `${fixed(spindle.angle, 2)}°` : t.spindleNotHomed}
-    </span>
+    <ul class="spindles digits" aria-label={t.spindles}>
+      {rows.map(({ name, speed, condition, place, coupling }) => (
+        <li key={name} data-test={`spindle-${name}`}>
+          <b>{name}</b>
+          <div>
+            <span title={t.spindleSpeeds}>{speed}<span class="wide dim"> 1/min</span></span>
+            <span>{condition}</span>
+          </div>
+          <div>
+            <span class="dim" title={place}>{place}</span>
+            {coupling && <span class={`coupling ${coupling.within ? "good-text" : "changed"}`}>{coupling.words}</span>}
+          </div>
+        </li>
+      ))}
+    </ul>
   );
 }
 
@@ -28,7 +33,6 @@ export function Technology() {
   if (!one) return null;
   const t = text.value;
   const spindle = machine.value.drive?.spindle_speed[0];
-  const state = machine.value.drive?.spindles?.[0];
   return (
     <section class="technology" aria-label={t.technology}>
       <div class="values digits">
@@ -41,7 +45,6 @@ export function Technology() {
           <b>S</b>
           <span class="value">{spindle === undefined ? "–" : whole(spindle)}</span>
           <span class="dim">{t.programmed} {whole(one.spindle_programmed)} <span class="wide">1/min</span></span>
-          {state && <SpindleState spindle={state} />}
         </div>
         <div>
           <b>T</b>
@@ -51,6 +54,7 @@ export function Technology() {
           </span>
         </div>
       </div>
+      <Spindles />
       <div class="modal" role="group" aria-label={t.activeCodes}>
         <span class="dim">{t.parts} {one.parts}</span>
         {one.modal.map((code) => (

@@ -99,6 +99,41 @@ TEST(ChannelSetup, ASpeedAboveThatOfTheHighestGearIsRefused) {
             "speed above the highest of the spindle: S3001, at most 3000 1/min (10a948)");
 }
 
+// Gear 1 up to 1000 1/min, gear 2 up to 4000; the spindle up to 3000.
+TEST(ChannelSetup, TheHighestSpeedOfASpindleIsThatOfItsGearToo) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const std::uint32_t of_spindle = 1000u * ChannelSetup(tables).tapping_spindle().axis.value();
+  tables.parameters.values[100948 + of_spindle].value = 3000;
+  tables.parameters.values[100985 + of_spindle].value = 1000;
+  tables.parameters.values[100986 + of_spindle].value = 4000;
+  const ChannelSetup setup(tables);
+  const auto& spindle = setup.tapping_spindle();
+  EXPECT_EQ(spindle.highest_speed_in(0), 3000);
+  EXPECT_EQ(spindle.highest_speed_in(1), 1000);
+  EXPECT_EQ(spindle.highest_speed_in(2), 3000);
+  EXPECT_EQ(spindle.highest_speed_in(3), 3000) << "there is no such gear";
+  EXPECT_EQ(spindle.highest_speed_in(6), 3000);
+}
+
+// 9000 deg/s2 up to 1500 1/min: at 3000 half of it, and beyond the power speed of 4000, at 8000, half of what
+// that power would give.
+TEST(ChannelSetup, TheAccelerationOfASpindleFallsWithItsSpeedWhereTheParametersSaySo) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const std::uint32_t of_spindle = 1000u * ChannelSetup(tables).tapping_spindle().axis.value();
+  const auto at = [&](double speed) {
+    return ChannelSetup(tables).tapping_spindle().acceleration_up_to(speed);
+  };
+  tables.parameters.values[100036 + of_spindle].value = 9000;
+  EXPECT_EQ(at(3000), 9000) << "10a971 is 0";
+  tables.parameters.values[100971 + of_spindle].value = 1;
+  EXPECT_EQ(at(3000), 9000) << "alarm 182: there is no base speed";
+  tables.parameters.values[100972 + of_spindle].value = 1500;
+  tables.parameters.values[100973 + of_spindle].value = 4000;
+  EXPECT_EQ(at(1500), 9000);
+  EXPECT_DOUBLE_EQ(at(3000), 4500);
+  EXPECT_DOUBLE_EQ(at(8000), 9000 * 1500.0 / 8000 / 2);
+}
+
 // 010920 .. 010923.
 TEST(ChannelSetup, TheParametersNameTheCodesWithAnAngle) {
   auto tables = tool_tables::load_machine_tables(ac_table);
@@ -126,7 +161,7 @@ TEST(ChannelSetup, LettersWithAxisNumberMinusTwoAreTheTappingSpindles) {
   EXPECT_EQ(setup.spindle_axes(), 1u << language::U | 1u << language::W);
   EXPECT_EQ(setup.tapping_spindle().axis, spindle);
   EXPECT_EQ(setup.tapping_spindle(4).axis, spindle);
-  EXPECT_EQ(setup.tapping_spindle(4).acceleration, setup.tapping_spindle().acceleration);
+  EXPECT_EQ(setup.tapping_spindle(4).ramp.acceleration, setup.tapping_spindle().ramp.acceleration);
   EXPECT_FALSE(setup.tapping_spindle(5).axis);
   EXPECT_FALSE(setup.tapping_spindle(6).axis);  // the machine has one spindle only
 }
@@ -273,7 +308,7 @@ TEST(ChannelSetup, ExternalParametersOfNumAreThoseOfTheSpindles) {
   // 2 degrees of 360 are 2 / 360 * 65536 = 364.089 parts of a revolution.
   EXPECT_NEAR(setup.external_parameter(90310).value(), 364.0889, 1e-4);
   EXPECT_EQ(setup.external_parameter(90320), 300);
-  EXPECT_EQ(setup.external_parameter(90330), setup.tapping_spindle().acceleration);
+  EXPECT_EQ(setup.external_parameter(90330), setup.tapping_spindle().ramp.acceleration);
   EXPECT_EQ(setup.external_parameter(90370), 1500);
   EXPECT_EQ(setup.external_parameter(90323), std::nullopt) << "the machine has no fourth spindle";
   EXPECT_EQ(setup.external_parameter(91124), std::nullopt) << "its state is not known when the text is read";

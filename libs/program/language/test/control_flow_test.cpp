@@ -20,6 +20,31 @@ TEST(ControlFlow, SkippedLinesAreNoPartOfTheStructure) {
   EXPECT_THAT(stream(run(machine, "G0\n/IF 0\nX1\n/ENDIF\nX2\n", {}, {})), ElementsAre("rapid X2", "end 0"));
 }
 
+// Whether a jump leads behind the line or the branch before it leads to it.
+TEST(ControlFlow, TextBehindElseAndTheEndsIsFoundWhereverTheProgramComesFrom) {
+  struct Row {
+    const char* program;
+    const char* place;
+  };
+  for (const Row& row :
+       {Row{"IF 0\nX1\nELSE X2\nENDIF", "alarm 1013 3:6"}, Row{"IF 1\nELSE X2\nENDIF", "alarm 1013 2:6"},
+        Row{"IF 0\nX1\nENDIF (end) X2", "alarm 1013 3:13"}, Row{"WHILE 0\nX1\nN5 ENDW M5", "alarm 1013 3:9"},
+        Row{"WHILE [0] DO 2\nX1\nEND 2.0 X2", "alarm 1013 3:9"},
+        Row{"IF 0\nX1\nELSEIF 1 X2\nENDIF", "alarm 1013 3:10"},
+        Row{"IF 0\nX1\nENDIF (open", "alarm 1004 3:7"}}) {
+    TestMachine machine;
+    EXPECT_THAT(stream(run(machine, row.program)), ElementsAre(row.place)) << row.program;
+  }
+  // Comments may be there, and a DO may be ended by a number with a point.
+  for (const char* program :
+       {"IF 0\nX1\nELSE (other) ; way\nX2\nENDIF ; end\nM30", "IF 0\nX1\nENDIF(end)\nX2\nM30",
+        "DO2\nIF #1 EQ 1 GOTO 5\n#1=1\nEND2.0 (again)\nN5 X2\nM30",
+        "WHILE [0] DO2\nX1\nEND 2. ; end\nX2\nM30"}) {
+    TestMachine machine;
+    EXPECT_THAT(stream(run(machine, program)), ElementsAre("rapid X2", "end 30")) << program;
+  }
+}
+
 TEST(ControlFlow, EndlessLoopsGiveTheThreadBack) {
   TestMachine machine;
   for (const char* program : {"WHILE 1\nENDW", "DO1\nEND1", "N1 GOTO 1", "N1\nIF 1 GOTO 1",

@@ -65,6 +65,9 @@ TEST(Cycles, ATapIsRemovedAgainstTheHandOfItsThread) {
   // Along X the tool may come from either side.
   EXPECT_EQ(stream(run(machine, "S200 G84.9 X-12 K1.25\nM30\n")),
             (std::vector<std::string>{"S200", "tap X-12 lead-1.25", "end 30"}));
+  // So it may along an axis beside them.
+  EXPECT_EQ(stream(run(machine, "G0 U1\nS200 G84.9 U-12 K1.25\nM30\n")),
+            (std::vector<std::string>{"rapid U1", "S200", "tap U-11 lead-1.25", "end 30"}));
 }
 
 // Where the holes of a program are: the ends of its feed moves.

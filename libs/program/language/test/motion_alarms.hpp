@@ -79,6 +79,7 @@ inline std::vector<WrongMotion> wrong_motion() {
       {cycle_level_side, "G0 Z5\nG81 X1 Z-1 R-2 F1", 2, 12, ": R-2, R -2.000 mm, depth -1.000 mm"},
       {tap_removal_axis, "S200 G84.9 X1 Z12 K1.25", 1, 6, ": G84.9"},
       {tap_removal_axis, "S200 G84.9 A12 K1.25", 1, 6, ": G84.9"},
+      {tap_removal_axis, "S200 G84.9 Y1 Z12 K1.25", 1, 6, ": G84.9"},
       {tap_removal_axis, "G51.1 Z0\nS200 G84.9 Z12 K1.25", 2, 6, ": G84.9"},
       {tap_removal_lead, "G84.9 Z12 K1.25", 1, 1, ": G84.9"},
       {tap_removal_lead, "S200 G84.9 Z12 K0", 1, 16, ": K0"},

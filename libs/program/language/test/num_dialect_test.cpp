@@ -4,26 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
 #include "language/num_codes.hpp"
 #include "language/num_parameters.hpp"
-#include "test_machine.hpp"
+#include "num_program.hpp"
 
 namespace trunnion::language::test {
 namespace {
 
 using testing::ElementsAre;
-
-TestMachine num_machine() {
-  TestMachine machine;
-  machine.dialect = ProgramDialect::num;
-  return machine;
-}
-
-std::vector<std::string> num_stream(const std::string& program) {
-  TestMachine machine = num_machine();
-  return stream(run(machine, program));
-}
 
 TEST(NumDialect, WordsNeedNoBlanksAndComeInAnyOrder) {
   EXPECT_THAT(num_stream("M64M40M3S50\nG1X1.5Y-2F100(corner)\nz3 g0 $ up\nM2\n"),
@@ -83,6 +74,27 @@ TEST(NumDialect, MessagesAreThoseOfTheirLine) {
   EXPECT_EQ(result.commands[1].line, 2u);
 }
 
+TEST(NumDialect, TheTextOfAMessageIsReadableWhileItsCommandIsTheNewest) {
+  TestMachine machine = num_machine();
+  // 0xe9 is an e with an acute accent in Latin-1 and no UTF-8; the last text has 49 characters of two bytes.
+  std::string long_text;
+  for (int i = 0; i < 49; ++i) long_text += "\xc3\xa9";
+  const std::string text =
+      "$ HELLO \xe9\t.  \nG77 H5\nX1 $" + long_text + "\nX2\n%5\nIF 1=1 THEN $5 \xc2\xb5m\nENDI\n";
+  StringSource source(text);
+  Interpreter interpreter(machine);
+  interpreter.start(source, {}, {});
+  EXPECT_EQ(interpreter.message_text(), "");
+  std::vector<std::string> texts;
+  Command command;
+  while (interpreter.next(command) == Step::command)
+    if (command.kind == CommandKind::message) texts.emplace_back(interpreter.message_text());
+  EXPECT_THAT(texts, ElementsAre("HELLO ??.", "5 \xc2\xb5m", long_text.substr(0, 96)));
+  StringSource other("X1\nM2");
+  interpreter.start(other, {}, {});
+  EXPECT_EQ(interpreter.message_text(), "");
+}
+
 TEST(NumDialect, DwellIsInSecondsAndUnitsAreG70AndG71) {
   EXPECT_THAT(num_stream("G4 F.5\nG4F1\nM2"), ElementsAre("dwell 0.5", "dwell 1", "end 2"));
   // 1 inch = 25.4 mm, 10 inch/min = 254 mm/min.
@@ -112,63 +124,27 @@ TEST(NumDialect, ACalledProgramEndsWithItsText) {
   EXPECT_THAT(stream(run(machine, "G77 H5\nM2")), ElementsAre("rapid X1", "alarm 1405 1:1"));
 }
 
-// The example of the document, from EH 2: 202 mm at 1.25 mm per revolution, out at 2.5 times 500 1/min.
-TEST(NumDialect, ATapHasItsLeadAndTheSpeedOfItsWayOut) {
-  EXPECT_THAT(num_stream("G71 S500 M3\nG0 Z10\nG84 Z-200 K1.25 EK2.5 EH2 M5\nM2"),
-              ElementsAre("S500", "M3", "rapid Z10", "rapid Z2", "M5", "tap Z-200 lead1.25",
-                          "tap Z2 lead1.25 S1250", "M5", "end 2"));
-  // 60 1/min times 2.
-  EXPECT_THAT(num_stream("S60 M3 Z4\nG84 Z1 K1 EK2\nM2"),
-              ElementsAre("S60", "M3", "rapid Z4", "M5", "tap Z1 lead1", "tap Z4 lead1 S120", "M3", "end 2"));
-  TestMachine machine = num_machine();
-  machine.highest_speed = 100;
-  EXPECT_EQ(std::string(run(machine, "S60 M3 G84 Z-1 K1 EK2").alarm.text.data()),
-            std::string(alarm_text(AlarmNumber::spindle_speed_above)) +
-                ": EK, S times EK 120, at most 100 1/min (10a948)");
-}
-
-TEST(NumDialect, BehindATapTheSpindleTurnsAsBeforeOrStandsWithM5) {
-  TestMachine machine = num_machine();
-  EXPECT_EQ(run(machine, "S60 M4 G84 Z-1 K1\nM2").modal.spindle_direction, SpindleDirection::ccw);
-  EXPECT_EQ(run(machine, "S60 M4 G84 Z-1 K1 M5\nM2").modal.spindle_direction, SpindleDirection::stopped);
-  // M4 cuts a left-hand thread. F is the feed behind it, G80 ends the cycle.
-  EXPECT_THAT(num_stream("S60 M4 Z1\nG84 Z-1 K1 F200\nL0=[.RG80]\nG80\nG1 Z3 XL0\nM2"),
-              ElementsAre("S60", "M4", "rapid Z1", "M5", "tap Z-1 lead-1", "tap Z1 lead-1", "M4",
-                          "line X84 Z3 F200", "end 2"));
-}
-
-TEST(NumDialect, LeadAndLevelsOfATapAreInTheUnitOfTheProgram) {
-  // 0.05 inch = 1.27 mm, 0.1 = 2.54 mm, 0.5 = 12.7 mm; EK is a ratio.
-  EXPECT_THAT(num_stream("G70 S500 M3\nG84 Z-1 K.05 EK2 EH.1 ER.5\nM2"),
-              ElementsAre("S500", "M3", "rapid Z12.7", "rapid Z2.54", "M5", "tap Z-25.4 lead1.27",
-                          "tap Z2.54 lead1.27 S1000", "M3", "rapid Z12.7", "end 2"));
-  EXPECT_THAT(
-      num_stream("L1=1.25 S500 M3\nG84 Z-1 KL1 EKL1 EH1\nM2"),
-      ElementsAre("S500", "M3", "rapid Z1", "M5", "tap Z-1 lead1.25", "tap Z1 lead1.25 S625", "M3", "end 2"));
-  // X is a diameter, and so are EH and ER of a tap along it; K is not.
-  TestMachine machine = num_machine();
-  machine.diameter = true;
-  EXPECT_THAT(stream(run(machine, "S100 M3 Z-7\nG84 X20 K2 EH40 ER44\nM2")),
-              ElementsAre("S100", "M3", "rapid Z-7", "rapid X22 Z-7", "rapid X20 Z-7", "M5",
-                          "tap X10 Z-7 lead2", "tap X20 Z-7 lead2", "M3", "rapid X22 Z-7", "end 2"));
-}
-
-// The thread is modal, and still the K of G84 is that of the tap. 500 1/min times 2.
-TEST(NumDialect, ATapBetweenThreadsHasItsOwnLead) {
-  EXPECT_THAT(num_stream("M3 S500\nG38 K2 Z-1\nG84 Z-5 K1 EK2\nG38 K3 Z-9\nZ-10\nM2"),
-              ElementsAre("S500", "M3", "thread Z-1 lead2", "M5", "tap Z-5 lead1", "tap Z-1 lead1 S1000",
-                          "M3", "thread Z-9 lead3", "thread Z-10 lead3", "end 2"));
-}
-
-// Ten millimetres at a lead of 1.2 mm; clockwise with M3 whatever the direction. The PLC gets no M3, M4 and
-// range.
-TEST(NumDialect, ATapIsRemovedInTheSenseThatIsWritten) {
-  EXPECT_THAT(num_stream("M64 G39+ M3 M41 S200 K1.2 Z10\nX1\nM2"),
-              ElementsAre("M64", "S200", "tap Z10 lead1.2", "end 2"));
-  EXPECT_THAT(num_stream("G39+M4S200K1.2Z10"), ElementsAre("S200", "tap Z10 lead-1.2", "end 2"));
-  // The distance is incremental, also with G90, and in the unit of the program.
-  EXPECT_THAT(num_stream("G70 G90 X1 Z1\nG39+ M4 S200 K.1 X.5\nM2"),
-              ElementsAre("rapid X25.4 Z25.4", "S200", "tap X38.1 Z25.4 lead-2.54", "end 2"));
+// As the homing programs of the manual are printed. An IF without ELSE, a loop, and what is open within an
+// ELSE still need their ends.
+TEST(NumDialect, TheEndOfAProgramClosesAnIfBehindItsElse) {
+  EXPECT_THAT(num_stream("IF 1=1 THEN\nX1\nELSE\nX2\n"), ElementsAre("rapid X1", "end 0"));
+  EXPECT_THAT(num_stream("IF 1=2 THEN\nX1\nELSE\nX2\n"), ElementsAre("rapid X2", "end 0"));
+  for (const char* condition : {"1=1", "1=2"})
+    EXPECT_THAT(
+        num_stream(std::string("G77 H7\nY5\nM2\n%7\nIF ") + condition + " THEN\nX1\nELSE\nX2\n%8\nX3\n"),
+        ElementsAre(condition == std::string("1=1") ? "rapid X1" : "rapid X2",
+                    condition == std::string("1=1") ? "rapid X1 Y5" : "rapid X2 Y5", "end 2"))
+        << condition;
+  EXPECT_THAT(num_stream("IF 1=2 THEN\nELSE\nIF 1=2 THEN\nELSE\nX1\n"), ElementsAre("rapid X1", "end 0"));
+  // A jump from one branch into the other.
+  EXPECT_THAT(num_stream("IF 1=1 THEN\nG79 N5\nELSE\nX9\nN5 X1\n"), ElementsAre("rapid X1", "end 0"));
+  EXPECT_THAT(num_stream("IF 1=2 THEN\nX1\n"), ElementsAre("alarm 1405 1:1"));
+  EXPECT_THAT(num_stream("IF 1=2 THEN\nELSE\nIF 1=1 THEN\nX1\n"), ElementsAre("rapid X1", "alarm 1405 3:1"));
+  EXPECT_THAT(num_stream("IF 1=1 THEN\nX1\nELSE\nIF 1=1 THEN\n"), ElementsAre("rapid X1", "alarm 1405 3:1"));
+  EXPECT_THAT(num_stream("WHILE 1=2 DO\nIF 1=1 THEN\nELSE\n"), ElementsAre("alarm 1405 1:1"));
+  EXPECT_THAT(num_stream("IF 1=2 THEN\nELSE\nWHILE 1=2 DO\nX1\n"), ElementsAre("alarm 1405 3:1"));
+  TestMachine iso;
+  EXPECT_EQ(run(iso, "IF 0\nELSE\nX2\n").alarm.number, AlarmNumber::begin_without_end);
 }
 
 TEST(NumDialect, ProgramsAreStoredUnderTheirNumber) {
@@ -255,7 +231,8 @@ const std::vector<NumFault>& num_faults() {
       {num_removal_words, "G39+ M3 M46 S200 K1 Z10", 1, 9, ": M46, NUM error 2"},
       {num_removal_twice, "G39+ M3 M4 S200 K1 Z10", 1, 1, ": G39+, NUM error 1"},
       {num_removal_twice, "G39+ M3 M40 M41 S200 K1 Z10", 1, 1, ": G39+, NUM error 1"},
-      {tap_removal_axis, "M64 G39+ M3 M41 S200 K1.2 W10", 1, 5, ": G39+"},
+      {tap_removal_axis, "M64 G39+ M3 M41 S200 K1.2 Z1 W10", 1, 5, ": G39+"},
+      {num_removal_words, "G39+ M3 S200 K1 A10", 1, 1, ": G39+, NUM error 2"},
       {tap_removal_axis, "G39+ M3 S200 K1 X1 Z10", 1, 1, ": G39+"},
       {tap_removal_spindle, "M3\nG39+ M4 S200 K1 Z10", 2, 1, ": G39+"},
       {tap_removal_lead, "G39+ M4 S0 K1 Z10", 1, 1, ": G39+"},
@@ -283,6 +260,9 @@ const std::vector<NumFault>& num_faults() {
       {num_homing_axis, "L0=9 G77 H9990.9", 1, 10, ": H9990.9"},
       {num_homing_axis, "L0=0.5 G77 H9990.9", 1, 12, ": H9990.9"},
       {num_homing_axis, "L0=-1 G77 H9990.9", 1, 11, ": H9990.9"},
+      // X is 0, and so is an L0 that was not written.
+      {num_homing_axis, "F2000 G77 H9990.9", 1, 11, ": H9990.9"},
+      {num_homing_axis, "L1=2 G77 H9990.9", 1, 10, ": H9990.9"},
       {missing_word, "G159", 1, 1, ": G159, needs an axis"},
       {missing_word, "G38 Z-13", 1, 1, ": G38, needs K"},
       {missing_word, "G33 Z-13", 1, 1, ": G33, needs K"},
@@ -326,6 +306,9 @@ const std::vector<NumFault>& num_faults() {
       {num_parameter_unknown, "L0=E12345", 1, 4, ": E12345"},
       {num_parameter_unknown, "L0=E[FOO]", 1, 4, ": E"},
       {num_parameter_unknown, "L0=E[MUCHTOOLONG]", 1, 4, ": E"},
+      {num_parameter_unknown, "E35332 = 0", 1, 1, ": E35332, NUM error 92"},
+      {num_parameter_unknown, "E94299=24", 1, 1, ": E94299, NUM error 92"},
+      {num_parameter_unknown, "L0=E91109", 1, 4, ": E91109"},
       {num_parameter_unavailable, "L0=E90110", 1, 4, ": E90110, MODULOB1 (E90110)"},
       {num_parameter_unavailable, "E90300=24", 1, 1, ": E90300, VITPALB1 (E90300)"},
       {num_parameter_unavailable, "E98024=500", 1, 1, ": E98024, TIB1 (E98024)"},
@@ -338,6 +321,7 @@ const std::vector<NumFault>& num_faults() {
       {num_modal_read, "L0=[.RG4]", 1, 4, ": ["},
       {num_modal_read, "L0=[2]", 1, 4, ": ["},
       {variable_read_only, "E90100=1", 1, 1, ": E90100, MESPOSB1 (E90100)"},
+      {variable_read_only, "E91108=0", 1, 1, ": E91108"},
       {variable_value, "E80000=1.5", 1, 1, ": E80000, a whole number"},
       {variable_unknown, "L20=1", 1, 1, ": L20, L0 to L19 and L100 to L199"},
       {letter_twice, "X1 X2", 1, 4, ": X2"},
@@ -356,6 +340,14 @@ const std::vector<NumFault>& num_faults() {
       {statement_not_first, "G0 G79 N1", 1, 4, ": G79"},
       {text_behind_statement, "IF 1=1 THEN\nENDI X1", 2, 6, ": X1"},
       {text_behind_statement, "IF 1=1 THEN\nELSE $text", 2, 6, ": $"},
+      // A jump leads behind these lines.
+      {text_behind_statement, "IF 1=2 THEN\nX1\nELSEIF 2=2 THEN\nX2\nENDI", 3, 5, ": IF"},
+      {text_behind_statement, "IF 1=2 THEN\nX1\nELSE X2\nENDI", 3, 6, ": X2"},
+      {text_behind_statement, "IF 1=2 THEN\nELSE $text\nENDI", 2, 6, ": $"},
+      {text_behind_statement, "IF 1=2 THEN\nN5 ENDI (end) X1", 2, 15, ": X1"},
+      {text_behind_statement, "IF 1=2 THEN\nENDIF", 2, 5, ": F"},
+      {text_behind_statement, "WHILE 1=2 DO\nENDW M5", 2, 6, ": M5"},
+      {open_comment, "WHILE 1=2 DO\nENDW (open", 2, 11, ""},
       {end_without_begin, "ENDW", 1, 1, ": ENDW"},
       {number_missing, "%\nX1", 1, 1, ": %"},
       {misplaced_head, "M64M40M3S50%", 1, 12, ": %"},
@@ -427,310 +419,21 @@ TEST(NumDialect, ADialectThatIsNamedGoesBeforeThatOfTheMachine) {
   EXPECT_EQ(command.dwell_seconds, 2);
 }
 
-TEST(NumThreads, AThreadAndTheBlocksThatContinueIt) {
-  EXPECT_THAT(num_stream("G0 Z5\nM3 S500\nG38 K2 Z-13 (first)\nX4 Z-15 K3\nN9 X5\nG0 X20\nM2"),
-              ElementsAre("rapid Z5", "S500", "M3", "thread Z-13 lead2", "thread X4 Z-15 lead3",
-                          "thread X5 Z-15 lead3", "rapid X20 Z-15", "end 2"));
-  // F is a feed, also between threads; a block without an end is not one of the thread.
-  EXPECT_THAT(num_stream("M3 S500\nG38 F100 K2 Z-1\nM8 F300\nG1 Z-2\nM2"),
-              ElementsAre("S500", "M3", "thread Z-1 lead2", "M8", "line Z-2 F300", "end 2"));
-  EXPECT_THAT(num_stream("M3 S500 G38 K2 Z-1\nL0=[.RG0]\nG0 XL0\nM2"),
-              ElementsAre("S500", "M3", "thread Z-1 lead2", "rapid X38 Z-1", "end 2"));
-}
-
-// Lead 2, taught at Z-13 with the spindle at 90 deg. From Z5 it is 18 mm, 9 revolutions; from Z5.5 9.25.
-TEST(NumThreads, AResumedThreadBeginsAtTheAngleThatPutsTheToolIntoThePitch) {
-  EXPECT_THAT(num_stream("M3 S500\nG0 Z5\nG38+ J-18 EC90 K2 Z-20\nM2"),
-              ElementsAre("S500", "M3", "rapid Z5", "thread Z-20 lead2 from90", "end 2"));
-  EXPECT_THAT(num_stream("M3 S500\nG0 Z5.5\nG38+J-18.5EC90K2Z-20\nM2"),
-              ElementsAre("S500", "M3", "rapid Z5.5", "thread Z-20 lead2", "end 2"));
-  // The parameters may be variables; a whole turn more of EC is the same angle.
-  EXPECT_THAT(num_stream("M3 S500 L1=-18 L2=450\nG0 Z5\nG38+ JL1 ECL2 K2 Z-20\nM2"),
-              ElementsAre("S500", "M3", "rapid Z5", "thread Z-20 lead2 from90", "end 2"));
-}
-
-TEST(NumThreads, ItsStartAngleCountsInTheDirectionOfTheThreadAndOfTheSpindle) {
-  const auto thread = [](const std::string& program) {
-    for (const auto& command : num_stream(program + "\nM2"))
-      if (command.rfind("thread", 0) == 0) return command;
-    return std::string("none");
-  };
-  // From Z-20 upwards to Z-13: 3.5 revolutions, 90 - 1260 = -1170 = 270 - 4 * 360.
-  EXPECT_EQ(thread("M3 S500\nG0 Z-20\nG38+ J7 EC90 K2 Z5"), "thread Z5 lead2 from270");
-  // The taught place is 2.5 mm behind the start: 1.25 revolutions before it, 90 + 450 = 540.
-  EXPECT_EQ(thread("M3 S500\nG0 Z-15.5\nG38+ J2.5 EC90 K2 Z-20"), "thread Z-20 lead2 from180");
-  // M4: the angle falls. 225 deg in its direction is 135; 9.125 revolutions less, 135 - 3285 = 90 - 9 * 360.
-  EXPECT_EQ(thread("M4 S500\nG0 Z5.25\nG38+ J-18.25 EC90 K2 Z-20"), "thread Z-20 lead2 from225");
-  // A taper: X goes farther and has the lead; 2.5 revolutions.
-  EXPECT_EQ(thread("M3 S500\nG38+ J-5 EC0 K2 X-10 Z-8"), "thread X-10 Z-8 lead2 from180");
-  // At 45 degrees J belongs to the axis of its direction, so that the taught place is ahead: 1.25
-  // revolutions.
-  EXPECT_EQ(thread("M3 S500\nG38+ J-2.5 EC180 K2 X10 Z-10"), "thread X10 Z-10 lead2 from90");
-  EXPECT_EQ(thread("M3 S500\nG38+ J2.5 EC180 K2 X10 Z-10"), "thread X10 Z-10 lead2 from90");
-  // 1.0125 inches are 10.125 leads of 0.1 inch: 90 - 3645 = 45 - 10 * 360.
-  EXPECT_EQ(thread("G70 M3 S500\nG38+ J-1.0125 EC90 K.1 Z-2"), "thread Z-50.8 lead2.54 from45");
-}
-
-TEST(NumThreads, JAndEXOfADiameterAreDiameters) {
-  TestMachine machine = num_machine();
-  machine.diameter = true;
-  // J: 5 mm, 2.5 revolutions. EX: from 30 to 15 in diameter are 7.5 mm, 3.75 revolutions.
-  EXPECT_THAT(
-      stream(run(machine, "M3 S500\nG38+ J-10 EC0 K2 X-40\nG0 X30\nG33 X10 K2 EC0 EX15\nM2")),
-      ElementsAre("S500", "M3", "thread X-20 lead2 from180", "rapid X15", "thread X5 lead2 from90", "end 2"));
-}
-
-TEST(NumThreads, G33IsOnePassAndResumesByTheTaughtPosition) {
-  TestMachine machine = num_machine();
-  const Interpretation plain = run(machine, "M3 S500\nG33 Z-13 K2\nX20\nM2");
-  EXPECT_THAT(stream(plain), ElementsAre("S500", "M3", "thread Z-13 lead2", "rapid X20 Z-13", "end 2"));
-  EXPECT_EQ(plain.commands[2].number, 1u);
-  EXPECT_EQ(plain.commands[2].modal.path_control, PathControl::exact_stop);
-  EXPECT_EQ(plain.modal.path_control, PathControl::continuous);
-  EXPECT_EQ(plain.modal.motion, 0);
-  EXPECT_THAT(num_stream("M3 S500\nG0 Z5\nG33 Z-20 K2 EC90 EZ-13\nM2"),
-              ElementsAre("S500", "M3", "rapid Z5", "thread Z-20 lead2 from90", "end 2"));
-  // The taught position is no incremental word.
-  EXPECT_THAT(num_stream("M3 S500\nG0 Z5.5\nG91 G33 Z-25.5 K2 EC90 EZ-13\nM2"),
-              ElementsAre("S500", "M3", "rapid Z5.5", "thread Z-20 lead2", "end 2"));
-  // Radial: 15 mm, 7.5 revolutions, 90 - 2700 = 270 - 8 * 360.
-  EXPECT_THAT(num_stream("M3 S500\nG0 X30\nG33 X10 K2 EC90 EX15\nM2"),
-              ElementsAre("S500", "M3", "rapid X30", "thread X10 lead2 from270", "end 2"));
-  // At 45 degrees either: 3 mm, 1.5 revolutions.
-  for (const char* taught : {"EX3", "EZ-3"})
-    EXPECT_THAT(num_stream(std::string("M3 S500\nG33 X10 Z-10 K2 EC0 ") + taught + "\nM2"),
-                ElementsAre("S500", "M3", "thread X10 Z-10 lead2 from180", "end 2"));
-}
-
-// The program of docs/threads.md: 90 - 360 * 18.5 / 2 = -3240 = 0, and from Z5 -3150 = 90 - 9 * 360.
-TEST(NumThreads, TheIsoDialectTakesAThreadUpByItsStartAngle) {
-  for (const bool farther : {true, false}) {
-    TestMachine iso;
-    const std::string start = farther ? "5.5" : "5";
-    EXPECT_THAT(stream(run(iso, "M3 S500\n#1=-13 #2=90 #3=" + start +
-                                    " #4=2     (taught Z, taught angle, start, lead)\n"
-                                    "#5=#2-360*[#3-#1]/#4         (towards -Z, M3)\n"
-                                    "#5=#5-360*FIX[#5/360]\nIF [#5 LT 0] THEN #5=#5+360\nG0 Z#3\n"
-                                    "G33 Z-20 F#4 Q#5\nM2")),
-                ElementsAre("S500", "M3", "rapid Z" + start,
-                            farther ? "thread Z-20 lead2" : "thread Z-20 lead2 from90", "end 2"));
-  }
-}
-
-TEST(NumThreads, OnlyAResumedThreadBeginsAnotherOne) {
-  TestMachine machine = num_machine();
-  const Interpretation result =
-      run(machine, "M3 S500\nG38 K2 Z-1\nG38 K2 Z-2\nG38+ J-1 EC0 K2 Z-3\nZ-4\nG33 Z-5 K2\nZ-6\nM2");
-  std::vector<std::uint32_t> begins;
-  for (const Command& command : result.commands)
-    if (command.kind == CommandKind::thread) begins.push_back(command.number);
-  EXPECT_THAT(begins, ElementsAre(0u, 0u, 1u, 0u, 1u, 0u));
-}
-
-// X 1, Z 4, C 32.
-TEST(NumHoming, G159NamesAxesWithOrWithoutANumber) {
-  EXPECT_THAT(num_stream("F2000 G159 C\nM2"), ElementsAre("home32 F2000", "end 2"));
-  EXPECT_THAT(num_stream("G159 C X Z (all)\nM2"), ElementsAre("home37", "end 2"));
-  EXPECT_THAT(num_stream("G159XZ$ home\nM2"), ElementsAre("message 10000", "home5", "end 2"));
-  EXPECT_THAT(num_stream("G159 X0 Z\nM2"), ElementsAre("home5", "end 2"));
-  // F is the speed of the search only.
-  EXPECT_THAT(num_stream("G94 F100\nF2000 G159 X\nG1 X1\nM2"),
-              ElementsAre("home1 F2000", "line X1 F100", "end 2"));
-}
-
-TEST(NumHoming, TheControlCarriesOut9990Point9) {
-  // Z U A in the numbers of L0; their bits are 2, 6 and 3.
-  EXPECT_THAT(num_stream("L0=2 F2000 G77 H9990.9 (axe Z)\nL0=3 G77 H9990.9\nL0=6 F10 G77 H9990.9\nM2"),
-              ElementsAre("home4 F2000", "home64 F2000", "home8 F10", "end 2"));
-  // Behind the words of its block; also from another program, and in a loop.
-  EXPECT_THAT(num_stream("L0=1 X5 G77 H9990.9\nG77 H7\nM2\n%7\nL0=0\nWHILE L0<2 DO G77 H9990.9\n"
-                         "L0=L0+1\nENDW\n"),
-              ElementsAre("rapid X5", "home2 X5", "home1", "home2", "end 2"));
-  // 10 inch/min; F per revolution is no speed of the search.
-  EXPECT_THAT(num_stream("G70 L0=2 F10 G77 H9990.9\nG95 F.1 G77 H9990.9\nM2"),
-              ElementsAre("home4 F10", "home4", "end 2"));
-  // L0 is 0 when it was not written: X. An axis that the channel does not have is left out.
-  TestMachine machine = num_machine();
-  machine.axis_mask = 0b000000101;
-  EXPECT_THAT(stream(run(machine, "G77 H9990.9\nL0=1 G77 H9990.9\nL0=2 G77 H9990.9\nM2")),
-              ElementsAre("home1", "home4", "end 2"));
-  TestMachine iso;
-  EXPECT_EQ(run(iso, "M98 P9990 L1").alarm.number, AlarmNumber::subprogram_missing);
-}
-
-// The example for one group as it is printed, comments translated: Z and X at their own feeds, Y at that of
-// X, C. The condition does not hold, because G159 is carried out without these programs.
-TEST(NumHoming, ThePrintedProgramForOneGroupRuns) {
-  EXPECT_THAT(
-      num_stream("$9990\n\nIF [.RG80] = 159 THEN (called by G159)\n   G77 H9990.9\n\nELSE (called in homing "
-                 "mode: put the number of the axis into L0)\n        (Perhaps program the feed Fxxx)\n   "
-                 "L0=2 F2000 G77 H9990.9 (axis Z)\n   L0=0 F3000 G77 H9990.9 (axis X)\n   L0=1 G77 H9990.9 "
-                 "(axis Y)\n   L0=8 F10000 G77 H9990.9 (axis C)\nM2\n"),
-      ElementsAre("message 10000", "home4 F2000", "home1 F3000", "home2 F3000", "home32 F10000", "end 2"));
-}
-
-// Homing of a machine with one group and of one group of two; the call of an axis moves X to its number here.
-TEST(NumDialect, ProgramsOfTheManualRunUpToWhatIsNotThere) {
-  TestMachine machine = num_machine();
-  machine.programs["O9990.9"] = std::make_unique<StringSource>("XL0\n");
-  EXPECT_THAT(
-      stream(run(machine,
-                 "$9990\nIF [.RG80] = 159 THEN (called by G159)\n   G77 H9990.9\n\nELSE (called in "
-                 "homing mode)\n        (perhaps a feed)\n   L0=2 F2000 G77 H9990.9 (Z)\n   L0=0 F3000 "
-                 "G77 H9990.9 (X)\n   L0=1 G77 H9990.9 (Y)\n   L0=8 F10000 G77 H9990.9 (C)\nM2\n")),
-      ElementsAre("message 10000", "rapid X2", "rapid", "rapid X1", "rapid X8", "end 2"));
-  EXPECT_THAT(stream(run(machine,
-                         "%9990.1 (HOMING, GROUP 1)\nIF [.RG80] = 159 THEN (called by G159)\n   G77 "
-                         "H9990.9\nELSE\n   L0=2 F2000 G77 H9990.9(Z)\n   G78 Q1 P1.2 (WAIT)\n   M2\n"
-                         "%9990.2(HOMING, GROUP 2)\n")),
-              ElementsAre("rapid X2", "alarm 1152 6:4"));
-  EXPECT_THAT(stream(run(machine, "E80000=3 E80001=42\nL0=200 L1=1.25\nG39+ ME80000 ME80001 SL0 KL1 Z-10\n")),
+TEST(NumDialect, ProgramsOfTheManualRun) {
+  EXPECT_THAT(num_stream("G39+ M3 M41 S200 K1.2 W10\n"), ElementsAre("S200", "tap W10 lead1.2", "end 2"));
+  EXPECT_THAT(num_stream("E80000=3 E80001=42\nL0=200 L1=1.25\nG39+ ME80000 ME80001 SL0 KL1 Z-10\n"),
               ElementsAre("S200", "tap Z-10 lead1.25", "end 2"));
-  EXPECT_THAT(stream(run(machine, "E35324 = 0\n")), ElementsAre("alarm 1156 1:1"));
-  EXPECT_THAT(stream(run(machine,
-                         "WHILE L0=0 DO G4 F.5 $\nL0=1\nENDW\n$SYNCHRO OK\nM64 M40 M3 S2000\nG4 F5\n"
-                         "M2\n")),
-              ElementsAre("dwell 0.5", "message 10000", "M64", "S2000", "M40", "M3", "dwell 5", "end 2"));
+  // Thread cutting with tapered retraction: lead 2, taught at Z-13 and 90 deg, from Z5 9 revolutions.
+  EXPECT_THAT(num_stream("M3 S500\nG0X0Z5\nG38+ J-18 EC90 K2 Z-20\nX4 Z-24\nG0 X20\nM2"),
+              ElementsAre("S500", "M3", "rapid Z5", "thread Z-20 lead2 from90", "thread X4 Z-24 lead2",
+                          "rapid X20 Z-24", "end 2"));
 }
 
-// The values that the program asks for, one after the other; 0 when there are no more.
-std::vector<std::string> with_values(Environment& machine, const std::string& text,
-                                     std::vector<double> values, InterpreterOptions options = {}) {
-  StringSource source(text);
-  Interpreter interpreter(machine, options);
-  interpreter.start(source, {}, {});
-  Interpretation result;
-  Command command;
-  std::size_t next = 0;
-  do {
-    result.last = interpreter.next(command);
-    if (result.last == Step::command) result.commands.push_back(command);
-    if (result.last != Step::value) continue;
-    EXPECT_EQ(result.commands.back().kind, CommandKind::read);
-    EXPECT_EQ(interpreter.next(command), Step::value) << "nothing is read before the value";
-    interpreter.give_value(next < values.size() ? values[next] : 0);
-    ++next;
-  } while (result.last != Step::end && result.last != Step::alarm && result.commands.size() < 1000);
-  result.alarm = interpreter.alarm();
-  EXPECT_GE(next, values.size()) << "it has asked for fewer";
-  return stream(result);
-}
-
-// Command::number is 8 times the place of the value in SpindleValue and the spindle: homed 0, synchronized 8,
-// master 16, error 24, reference 32, angle 40.
-TEST(NumSpindles, ALoopReadsTheStateAgainEachTime) {
-  TestMachine machine = num_machine();
-  EXPECT_THAT(with_values(machine, "WHILE E93525=0 DO G4 F.5 $\nENDW\nX1\nM2", {0, 0, 1}),
-              ElementsAre("read 9", "dwell 0.5", "read 9", "dwell 0.5", "read 9", "rapid X1", "end 2"));
-  EXPECT_THAT(with_values(machine, "WHILE E91124=1 DO $Homing\nM64M40M3S50\nENDW\nM2", {0, 1}),
-              ElementsAre("read 0", "message 10000", "M64", "S50", "M40", "M3", "read 0", "end 2"));
-}
-
-// 90 deg of 360 are 25000 of 100000 and 16384 of 65536; master 2 is address 24 + 1.
-TEST(NumSpindles, ValuesAreInTheUnitsOfTheParameters) {
-  TestMachine machine = num_machine();
-  EXPECT_THAT(
-      with_values(machine, "XE90100\nYE95224\nZE90200\nAE94125\nM2", {90, -90, -1500, 2}),
-      ElementsAre("read 40", "rapid X25000", "read 24", "rapid X25000 Y-16384", "read 32",
-                  "rapid X25000 Y-16384 Z-1500", "read 17", "rapid X25000 Y-16384 Z-1500 A25", "end 2"));
-  EXPECT_THAT(with_values(machine, "XE94125 YE[POM_B1]\nM2", {0, 1}),
-              ElementsAre("read 17", "read 0", "rapid X-1", "end 2"));
-}
-
-// Without the taking back L0 would be 3 and L2 4 behind two values.
-TEST(NumSpindles, ALineThatAsksHasNoEffectBefore) {
-  TestMachine machine = num_machine();
-  EXPECT_THAT(with_values(machine, "L2=2\nL0=L0+1 L2=L2*L2 L1=E93524+E93525 E98024=E93524\nXL0 YL1 ZL2\nM2",
-                          {1, 1, 1}),
-              ElementsAre("read 8", "read 9", "read 8", "alarm 1156 2:35"));
-  machine.external = {{98024, 300}};
-  EXPECT_THAT(with_values(machine, "L2=2\nL0=L0+1 L2=L2*L2 L1=E93524+E93525\nXL0 YL1 ZL2\nM2", {1, 1}),
-              ElementsAre("read 8", "read 9", "rapid X1 Y2 Z4", "end 2"));
-}
-
-TEST(NumSpindles, AMasterNeedsTheMarksOfBothAndTheAlarmNamesTheSpindle) {
-  TestMachine machine = num_machine();
-  EXPECT_THAT(with_values(machine, "EC90\nE94125=24\nE94125=-1\nM2", {1, 1}),
-              ElementsAre("order 0 90", "read 0", "read 1", "order 94125 24", "order 94125 -1", "end 2"));
-  EXPECT_THAT(with_values(machine, "E94124=27", {1, 0}), ElementsAre("read 3", "read 0", "alarm 1139 1:1"));
-}
-
-// Lead 2, taught at Z-13 with the spindle at 90 deg: from Z5 it is 18 mm, 9 revolutions.
-TEST(NumSpindles, TheAngleOfASynchronizationIsNotThatOfAThread) {
-  TestMachine machine = num_machine();
-  EXPECT_THAT(
-      with_values(machine, "M3 S500 EC45\nG0 Z5\nG33 Z-20 K2 EC90 EZ-13\nEC30\nM2", {}),
-      ElementsAre("order 0 45", "S500", "M3", "rapid Z5", "thread Z-20 lead2 from90", "order 0 30", "end 2"));
-  // Between threads it is in a block of its own or with another motion; a tap may have it.
-  EXPECT_THAT(with_values(machine, "M3 S60\nG38 K2 Z-1\nEC90\nG0 X2 EC60\nG84 Z-5 K1 EC0 M5\nM2", {}),
-              ElementsAre("S60", "M3", "thread Z-1 lead2", "order 0 90", "order 0 60", "rapid X2 Z-1",
-                          "order 0 0", "M5", "tap X2 Z-5 lead1", "tap X2 Z-1 lead1", "M5", "end 2"));
-}
-
-// E98025=-E98025 is only an order: the time stays.
-TEST(NumSpindles, TheIntegralTimeIsAParameterAndItsSignAnOrder) {
-  TestMachine machine = num_machine();
-  machine.external = {{98025, 400}};
-  EXPECT_THAT(
-      with_values(machine, "XE98025\nE98025=500\nE98025=-E98025\nYE98025\nE98025=-E98025\nE98025=0\nM2", {}),
-      ElementsAre("rapid X400", "table6 100025 500", "order 98025 500", "order 98025 -500",
-                  "rapid X400 Y-500", "order 98025 500", "order 98025 0", "end 2"));
-}
-
-TEST(NumSpindles, ParametersAreWrittenAsByG10AndReadAgain) {
-  TestMachine machine = num_machine();
-  machine.external = {{90330, 9000}};
-  EXPECT_THAT(with_values(machine, "E90330=20000\nXE90330\nE91024=0 X1\nM2", {}),
-              ElementsAre("table6 100330 20000", "rapid X20000", "rapid X1", "end 2"));
-}
-
-// As printed but for the S50% of its fifth line, whose % is a misprint. Spindle 1 has passed its mark,
-// spindle 2 does so in the first pass; both are synchronized at the second question.
-TEST(NumSpindles, TheProgramOfTheManualRuns) {
-  TestMachine machine = num_machine();
-  for (const std::uint32_t number :
-       {90330u, 90331u, 90370u, 90371u, 90380u, 90381u, 90321u, 98025u, 90360u, 90361u})
-    machine.external[number] = 0;
-  const auto commands = with_values(machine,
-                                    "(SPEED CONTROLLED SPINDLE SYNCHRONISATION)\n(MASTER = B1 SLAVE = B2)\n"
-                                    "WHILE E91124=1 DO $Homing on spindle 1\nM64M40M3S50\nENDW\n"
-                                    "WHILE E91125=1 DO $Homing on broche 2\nM65M40M3S50\nENDW\n"
-                                    "E94124=-1\nE94125=-1\nE91024=0\nE91025=0\nE90330=20000\nE90331=20000\n"
-                                    "E90370=1500\nE90371=1500\nE90380=4000\nE90381=4000\nE90321=500\n"
-                                    "E98025=500\nE90360=1\nE90361=1000\nM64 M40 M4 S100 EC0\n"
-                                    "M65 M40 M4 S100\nE94125=24\nWHILE E93525=0 DO G4 F.5 $\nENDW\n"
-                                    "$SYNCHRO OK\nM64 M40 M3 S2000\n"
-                                    "WHILE E93525=0 DO G4 F.5 $Wait for synchronisation at 2000 rpm\nENDW\n"
-                                    "E98025=-E98025\nG4 F5\nE98025=-E98025\nG4 F5\nM2\n",
-                                    {1, 0, 1, 1, 1, 0, 1, 0, 1});
-  EXPECT_THAT(
-      commands,
-      ElementsAre("read 0", "read 1", "message 10000", "M65", "S50", "M40", "M3", "read 1", "order 94124 -1",
-                  "order 94125 -1", "table6 100330 20000", "table6 100331 20000", "table6 100370 1500",
-                  "table6 100371 1500", "table6 100380 4000", "table6 100381 4000", "table6 100321 500",
-                  "table6 100025 500", "order 98025 500", "table6 100360 1", "table6 100361 1000",
-                  "order 0 0", "M64", "S100", "M40", "M4", "M65", "S100", "M40", "M4", "read 0", "read 1",
-                  "order 94125 24", "read 9", "dwell 0.5", "read 9", "message 10000", "M64", "S2000", "M40",
-                  "M3", "read 9", "message 10000", "dwell 0.5", "read 9", "order 98025 -500", "dwell 5",
-                  "order 98025 500", "dwell 5", "end 2"));
-}
-
-// #4811 + 10 is the master of spindle 1: variables count from 1.
-TEST(IsoSpindles, SystemVariablesReadTheStateAndOrderTheSynchronization) {
-  TestMachine machine;
-  EXPECT_THAT(with_values(machine,
-                          "WHILE #4802 EQ 0\nM3\nENDW\n#4880=30\n#4822=1\n#4872=2\nG0 X#4812 Y#4842\n"
-                          "IF #4832 GT 1\nX5\nELSEIF #4832 GT 0.25\nX6\nENDIF\n#4822=0\nM30",
-                          {0, 1, 1, 1, 1, 500, 0.5, 0.5}),
-              ElementsAre("read 1", "M3", "read 1", "order 0 30", "read 0", "read 1", "order 94125 24",
-                          "order 98025 -1", "read 9", "read 33", "rapid X1 Y500", "read 25", "read 25",
-                          "rapid X6 Y500", "order 94125 -1", "end 30"));
-  EXPECT_EQ(run(machine, "#4821=1").alarm.number, AlarmNumber::variable_value) << "itself";
-  EXPECT_EQ(run(machine, "#4872=3").alarm.number, AlarmNumber::variable_value);
-  EXPECT_EQ(run(machine, "#4811=1").alarm.number, AlarmNumber::variable_read_only);
-  const Interpretation result = run(machine, "#4822=1");
-  EXPECT_EQ(result.alarm.number, AlarmNumber::spindle_without_mark);
-  EXPECT_NE(std::string(result.alarm.text.data()).find("spindle 1"), std::string::npos);
+// To the C axis and back: each of the lines is refused by name, and none is passed over.
+TEST(NumDialect, TheSwitchingBetweenSpindleAndCAxisIsNotThere) {
+  for (const char* line : {"E35324 = 0", "E94224 = 24 G4F1", "E91008 = 0 G4F1", "E35324 = 11",
+                           "E94224 = 8 G4F1", "E91008 = 1 G4F1"})
+    EXPECT_THAT(num_stream(line), ElementsAre("alarm 1156 1:1")) << line;
 }
 
 }  // namespace

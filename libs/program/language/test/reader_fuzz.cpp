@@ -25,10 +25,23 @@ struct NoSystem : SystemVariables {
   AlarmNumber write(const VariableRange&, std::uint32_t, Value) override { return AlarmNumber::none; }
 };
 
+/// What an outline says of the text behind the word of a line that a jump may pass.
+void check_behind(const Outline& outline, const Block& block, const Fault& fault) {
+  const bool passed = block.statement == Statement::else_ || block.statement == Statement::end_if ||
+                      block.statement == Statement::end_while || block.statement == Statement::end_do;
+  const bool of_the_rest =
+      fault.number == AlarmNumber::text_behind_statement || fault.number == AlarmNumber::open_comment;
+  if (block.skipped || block.head != Head::none || !passed || (fault && !of_the_rest)) return;
+  require(outline.statement == block.statement);
+  require(outline.behind.number == fault.number && outline.behind.offset == fault.offset);
+}
+
 void check(const Dialect& dialect, std::string_view line, SkipLevels skip, Variables& variables,
            Block& block) {
   const Outline outline = dialect.outline(line, skip);
-  if (const Fault fault = dialect.read_block(line, skip, variables, block)) {
+  const Fault fault = dialect.read_block(line, skip, variables, block);
+  check_behind(outline, block, fault);
+  if (fault) {
     require(fault.offset <= line.size());
     const Alarm alarm = make_alarm(fault, line, 0, 1);
     require(alarm.text.back() == '\0');

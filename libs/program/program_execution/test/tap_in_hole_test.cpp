@@ -37,9 +37,21 @@ TEST(TapInHole, ComesOutTheOtherWayRoundAndInTheOtherDirection) {
   EXPECT_TRUE(tap_of_hole.contradicts(inside, across, -1.25));
   EXPECT_FALSE(tap_of_hole.contradicts(at(0, 0, -4.5), at(0, 0, 8), 2)) << "another place";
   EXPECT_FALSE(TapInHole{}.contradicts(inside, out, 2));
+  // X, Y and Z rest, or are rounded.
+  auto along_w = inside;
+  along_w[language::W] = 12;
+  EXPECT_TRUE(tap_of_hole.contradicts(inside, along_w, -1.25)) << "it stays in its hole";
+  along_w[language::Z] += 1e-12;
+  EXPECT_TRUE(tap_of_hole.contradicts(inside, along_w, -1.25));
   const auto left = TapInHole::of(-1.25, at(10, 20, 2), at(10, 20, -10));
   EXPECT_FALSE(left.contradicts(inside, out, 1.25));
   EXPECT_TRUE(left.contradicts(inside, out, -1.25));
+}
+
+TEST(TapInHole, TellsTheOperatorHandLeadAndDepth) {
+  EXPECT_EQ(tap_of_hole.words(6.5), "right-hand thread, lead 1.25 mm, 6.500 mm deep");
+  EXPECT_EQ(TapInHole::of(-0.75, at(0, 0, 0), at(0, 0, -8)).words(0.25),
+            "left-hand thread, lead 0.75 mm, 0.250 mm deep");
 }
 
 TEST(TapInHole, IsNoneOfAStrokeWithoutLength) {

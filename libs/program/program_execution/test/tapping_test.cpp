@@ -48,6 +48,49 @@ TEST(Tapping, TheRemovalOfATapIsOneStrokeInItsDirection) {
   EXPECT_DOUBLE_EQ(Tapping::line(out).modal.feed, 240);
 }
 
+// 10 mm by 1.25 mm. X is as far away as a tilted plane rounds.
+TEST(Tapping, AStrokeAlongASecondaryAxisTurnsTheSpindleByItsWay) {
+  AxisValues start{};
+  start[language::X] = 1, start[language::W] = 5;
+  auto out = stroke_to(0, -1.25);
+  out.target[language::X] = 1 + 1e-13, out.target[language::W] = 15;
+  Tapping tapping;
+  tapping.begin(start, out);
+  AxisValues position = start;
+  EXPECT_EQ(tapping.revolutions(position), 0);
+  position[language::W] = 7.5;
+  EXPECT_DOUBLE_EQ(tapping.revolutions(position), -2);
+  position[language::Z] = 100;
+  EXPECT_DOUBLE_EQ(tapping.revolutions(position), -2);
+  EXPECT_DOUBLE_EQ(tapping.revolutions(out.target), -8);
+  // As of the test below.
+  motion::Limits limits;
+  EXPECT_DOUBLE_EQ(tapping.limits(limits, 9000).axes[language::W].acceleration, 31.25);
+  EXPECT_EQ(tapping.limits(limits, 9000).axes[language::Z].acceleration, limits.axes[0].acceleration);
+  // The same object then taps along Z.
+  tapping.begin({}, stroke_to(-10, 1.25));
+  EXPECT_DOUBLE_EQ(tapping.limits(limits, 9000).axes[language::Z].acceleration, 31.25);
+  EXPECT_DOUBLE_EQ(tapping.revolutions(stroke_to(-10, 1.25).target), 8);
+}
+
+// 1.25 mm times 9000 deg/s2 are 31.25 mm/s2, of 4500 deg/s2 half of that.
+TEST(Tapping, TheAccelerationIsThatOfTheFastestSpeedOfTheHole) {
+  EXPECT_EQ(Tapping::fastest(stroke_to(-20, 1.25), 0), 750) << "500 1/min with an override of 150 %";
+  EXPECT_EQ(Tapping::fastest(stroke_to(-20, 1.25), 700), 700);
+  auto in = stroke_to(-20, 1.25);
+  in.hole_speed = 1250;
+  EXPECT_EQ(Tapping::fastest(in, 0), 1875) << "it comes out at 1250 1/min";
+  EXPECT_EQ(Tapping::fastest(in, 4000), 1875);
+  in.hole_speed = 250;
+  EXPECT_EQ(Tapping::fastest(in, 0), 750) << "it comes out more slowly";
+  Tapping tapping;
+  tapping.begin({}, in, 700);
+  EXPECT_EQ(tapping.highest_speed(), 700);
+  motion::Limits limits;
+  EXPECT_DOUBLE_EQ(tapping.limits(limits, 9000).axes[language::Z].acceleration, 31.25);
+  EXPECT_DOUBLE_EQ(tapping.limits(limits, 4500).axes[language::Z].acceleration, 15.625);
+}
+
 TEST(Tapping, TheOverrideDoesNotTakeTheSpindleAboveItsHighestSpeed) {
   EXPECT_EQ(Tapping::override_of(1.5, 500, 0), 1.5) << "no limit";
   EXPECT_EQ(Tapping::override_of(1.5, 500, 750), 1.5);

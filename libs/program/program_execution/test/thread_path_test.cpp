@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way of a thread over the angle of the spindle. Axes of 1000 mm/s^2 and 60000 mm/s^3; at S 600 with the
-// margin of 1.5 the spindle turns 15 times a second.
+// margin of 1.6 the spindle turns 16 times a second.
 #include "program_execution/thread_path.hpp"
 
 #include <gtest/gtest.h>
@@ -35,39 +35,54 @@ ThreadPath path_of(const std::vector<ThreadLeg>& legs, double speed = 600, bool 
 
 double z_at(const ThreadPath& path, double angle) { return path.at(angle).position[Z]; }
 
-// The acceleration needs 2 * 15^2 / 1000 = 0.45 revolutions before and behind the start, more than the jerk
-// with sqrt(2 * 15^3 / 60000) = 0.335: over 0.9 revolutions the tool goes half as far as on the pitch line,
-// 0.9 mm.
+// The acceleration needs 2 * 16^2 / 1000 = 0.512 revolutions before and behind the start, more than the jerk
+// with sqrt(2 * 16^3 / 60000) = 0.370: over 1.024 revolutions the tool goes half as far as on the pitch line,
+// 1.024 mm.
 TEST(ThreadPath, RunInBeginsBeforeTheStartAngleAndRunOutEndsBehindThatOfTheEnd) {
   const auto path = path_of({leg_to(0, -20, 2)});
-  EXPECT_NEAR(path.length_of_run_in(), 0.9, 1e-12);
-  EXPECT_NEAR(path.length_of_run_out(), 0.9, 1e-12);
-  EXPECT_TRUE(path.waits(-0.4500001));
-  EXPECT_FALSE(path.waits(-0.4499999));
-  EXPECT_NEAR(z_at(path, -0.45), 0, 1e-12);
-  // At the start angle the parabola has gone a twelfth of the 0.9 revolutions times the lead.
-  EXPECT_NEAR(z_at(path, 0), -2 * 0.9 / 12, 1e-12);
-  EXPECT_NEAR(z_at(path, 0.45), -0.9, 1e-12);
+  EXPECT_NEAR(path.length_of_run_in(), 1.024, 1e-12);
+  EXPECT_NEAR(path.length_of_run_out(), 1.024, 1e-12);
+  EXPECT_TRUE(path.waits(-0.5120001));
+  EXPECT_FALSE(path.waits(-0.5119999));
+  EXPECT_NEAR(z_at(path, -0.512), 0, 1e-12);
+  // At the start angle the parabola has gone a twelfth of the 1.024 revolutions times the lead.
+  EXPECT_NEAR(z_at(path, 0), -2 * 1.024 / 12, 1e-12);
+  EXPECT_NEAR(z_at(path, 0.512), -1.024, 1e-12);
   EXPECT_NEAR(z_at(path, 5), -10, 1e-12);
-  EXPECT_NEAR(z_at(path, 9.55), -19.1, 1e-12);
-  EXPECT_NEAR(z_at(path, 10), -20 + 2 * 0.9 / 12, 1e-12);
-  EXPECT_FALSE(path.done(10.4499999));
-  EXPECT_TRUE(path.done(10.4500001));
+  EXPECT_NEAR(z_at(path, 9.488), -18.976, 1e-12);
+  EXPECT_NEAR(z_at(path, 10), -20 + 2 * 1.024 / 12, 1e-12);
+  EXPECT_FALSE(path.done(10.5119999));
+  EXPECT_TRUE(path.done(10.5120001));
   EXPECT_EQ(z_at(path, 11), -20);
 }
 
-// At S 200 the spindle turns 5 times a second: 0.05 revolutions for the acceleration, and for the jerk
-// sqrt(2 * 5^3 / 60000).
+// A program continues behind a thread of which all is done: in the run-out, and where it was braked, it is
+// not.
+TEST(ThreadPath, IsDoneOnlyAtRestAtItsEnd) {
+  auto path = path_of({leg_to(0, -10, 2), leg_to(1, -20, 2)});
+  EXPECT_LT(path.at(4.9999999999).fraction, 1) << "another leg follows";
+  EXPECT_LT(path.at(10.3).fraction, 1) << "the run-out ends 0.512 revolutions behind the end";
+  EXPECT_EQ(path.at(10.6).fraction, 1);
+  path.brake_from(7);
+  ASSERT_TRUE(path.done(9));
+  EXPECT_LT(path.at(9).fraction, 1);
+  auto waiting = path_of({leg_to(0, -20, 2)});
+  waiting.brake_from(-2);
+  EXPECT_LT(waiting.at(-1.9).fraction, 1);
+}
+
+// At S 200 the spindle turns 16/3 times a second: 0.057 revolutions for the acceleration, and for the jerk
+// sqrt(2 * (16/3)^3 / 60000) = 0.071; the cube is 4096/27.
 TEST(ThreadPath, AtALowSpeedTheJerkDecides) {
   const auto path = path_of({leg_to(0, -20, 2)}, 200);
-  EXPECT_NEAR(path.length_of_run_in(), 2 * std::sqrt(250.0 / 60000), 1e-12);
+  EXPECT_NEAR(path.length_of_run_in(), 2 * std::sqrt(2 * 4096.0 / 27 / 60000), 1e-12);
 }
 
 TEST(ThreadPath, IsInPhaseAtEverySpeed) {
   auto slow = path_of({leg_to(0, -20, 1)}, 300), fast = path_of({leg_to(0, -20, 1)}, 1500);
-  // 7.5^2 / 1000 revolutions, sqrt(7.5^3 / 60000) are more; 37.5^2 / 1000 = 1.40625.
-  EXPECT_NEAR(slow.length_of_run_in(), std::sqrt(421.875 / 60000), 1e-12);
-  EXPECT_NEAR(fast.length_of_run_in(), 1.40625, 1e-12);
+  // 8^2 / 1000 revolutions, sqrt(8^3 / 60000) are more; 40^2 / 1000 = 1.6.
+  EXPECT_NEAR(slow.length_of_run_in(), std::sqrt(512.0 / 60000), 1e-12);
+  EXPECT_NEAR(fast.length_of_run_in(), 1.6, 1e-12);
   slow.set_origin(100.25), fast.set_origin(37.25);
   for (double turned = 2; turned < 18; turned += 0.125) {
     EXPECT_NEAR(z_at(slow, 100.25 + turned), -turned, 1e-9);
@@ -75,19 +90,19 @@ TEST(ThreadPath, IsInPhaseAtEverySpeed) {
   }
 }
 
-// 90 degrees are 0.25 revolutions behind the mark; the run-in begins 0.45 before.
+// 90 degrees are 0.25 revolutions behind the mark; the run-in begins 0.512 before.
 TEST(ThreadPath, BeginsAtTheFirstPassageOfTheStartAngleBeforeWhichTheRunInHasRoom) {
   auto leg = leg_to(0, -20, 2);
   leg.start_angle = 90;
   const auto right = path_of({leg});
-  EXPECT_NEAR(right.first_origin(7.0, 0.1), 8.25, 1e-12) << "7 + 0.1 + 0.45 is beyond 7.25";
+  EXPECT_NEAR(right.first_origin(7.0, 0.1), 8.25, 1e-12) << "7 + 0.1 + 0.512 is beyond 7.25";
   EXPECT_NEAR(right.first_origin(6.6, 0.1), 7.25, 1e-12);
   // Counter-clockwise the angle falls: 90 degrees behind mark -7 is -7.25.
   const auto left = path_of({leg}, 600, false);
   EXPECT_NEAR(left.first_origin(-7.0, 0.1), -8.25, 1e-12);
   EXPECT_NEAR(left.first_origin(-6.6, 0.1), -7.25, 1e-12);
   leg.start_angle = 0;
-  EXPECT_NEAR(path_of({leg}).first_origin(-3.2, 0.1), -2, 1e-12) << "-3.2 + 0.55 = -2.65";
+  EXPECT_NEAR(path_of({leg}).first_origin(-3.2, 0.1), -2, 1e-12) << "-3.2 + 0.612 = -2.588";
 }
 
 TEST(ThreadPath, StartsOfAMultipleThreadAreAnAngleApart) {
@@ -96,7 +111,7 @@ TEST(ThreadPath, StartsOfAMultipleThreadAreAnAngleApart) {
   auto one = path_of({first}), two = path_of({second});
   one.set_origin(one.first_origin(0, 0.1));
   two.set_origin(two.first_origin(0, 0.1));
-  // 0.55 rounded up to a mark, and to half a revolution behind one.
+  // 0.612 rounded up to a mark, and to half a revolution behind one.
   EXPECT_NEAR(one.origin(), 1, 1e-12);
   EXPECT_NEAR(two.origin(), 1.5, 1e-12);
   EXPECT_NEAR(z_at(one, 5) - z_at(two, 5), -1, 1e-9) << "half the lead";
@@ -147,7 +162,7 @@ TEST(ThreadPath, ChainedLegsAreOnePathWithEveryLegOnItsOwnPitchLine) {
 
 /// The path over time at the highest speed that it is made for, in steps of 0.1 ms.
 void expect_limits(const ThreadPath& path, double last) {
-  constexpr double dt = 1e-4, rate = 15;
+  constexpr double dt = 1e-4, rate = 16;
   AxisValues before{}, velocity{}, acceleration{};
   before = path.at(-1).position;
   const auto limits = thread_limits();
@@ -196,14 +211,14 @@ TEST(ThreadPath, TheSlowestAxisSaysHowMuchFasterTheSpindleMayTurn) {
 
 TEST(ThreadPath, ALegWithoutRoomForItsEndsIsRefused) {
   ThreadPath path;
-  // 0.45 revolutions at either end are 1.8 mm of the pitch line.
-  const std::vector<ThreadLeg> enough{leg_to(0, -1.81, 2)}, too_short{leg_to(0, -1.79, 2)};
+  // 0.512 revolutions at either end are 2.048 mm of the pitch line.
+  const std::vector<ThreadLeg> enough{leg_to(0, -2.06, 2)}, too_short{leg_to(0, -2.04, 2)};
   EXPECT_EQ(path.build({}, enough, 600, true, thread_limits()), ThreadPath::Fault::none);
   EXPECT_EQ(path.build({}, too_short, 600, true, thread_limits()), ThreadPath::Fault::too_short);
   const std::vector<ThreadLeg> second_too_short{leg_to(0, -20, 2), leg_to(0.5, -20, 2)};
   EXPECT_EQ(path.build({}, second_too_short, 600, true, thread_limits()), ThreadPath::Fault::too_short);
   EXPECT_EQ(path.faulty_leg(), 1u);
-  // 15^2 * 5 are 1125 mm/s^2.
+  // 16^2 * 5 are 1280 mm/s^2.
   const std::vector<ThreadLeg> too_fast{leg_to(0, -20, 1, 5)};
   EXPECT_EQ(path.build({}, too_fast, 600, true, thread_limits()), ThreadPath::Fault::acceleration);
 }
@@ -213,9 +228,9 @@ TEST(ThreadPath, BrakesAlongThePitchLine) {
   const double before = z_at(path, 5);
   path.brake_from(5);
   EXPECT_NEAR(z_at(path, 5), before, 1e-12);
-  EXPECT_FALSE(path.done(5.89));
-  EXPECT_TRUE(path.done(5.91)) << "0.9 revolutions, as the run-out";
-  EXPECT_NEAR(path.end()[Z], -10.9, 1e-9);
+  EXPECT_FALSE(path.done(6.01));
+  EXPECT_TRUE(path.done(6.03)) << "1.024 revolutions, as the run-out";
+  EXPECT_NEAR(path.end()[Z], -11.024, 1e-9);
   EXPECT_EQ(z_at(path, 7), path.end()[Z]);
   expect_limits(path, 7);
 }
@@ -223,7 +238,7 @@ TEST(ThreadPath, BrakesAlongThePitchLine) {
 TEST(ThreadPath, ABrakeInTheRunInWaitsForItsEndAndOneInTheRunOutChangesNothing) {
   auto early = path_of({leg_to(0, -20, 2)});
   early.brake_from(0);
-  EXPECT_NEAR(early.end()[Z], -1.8, 1e-9) << "0.9 mm of run-in and 0.9 mm to stop";
+  EXPECT_NEAR(early.end()[Z], -2.048, 1e-9) << "1.024 mm of run-in and 1.024 mm to stop";
   expect_limits(early, 3);
   auto late = path_of({leg_to(0, -20, 2)});
   late.brake_from(9.7);
@@ -235,15 +250,15 @@ TEST(ThreadPath, ABrakeInTheRunInWaitsForItsEndAndOneInTheRunOutChangesNothing) 
   EXPECT_EQ(z_at(waiting, 3), 0);
 }
 
-// The corner at 5 revolutions takes 0.45 before and behind it.
+// The corner at 5 revolutions takes 0.512 before and behind it.
 TEST(ThreadPath, ABrakeBeforeACornerDoesNotGoBeyondIt) {
   auto path = path_of({leg_to(0, -10, 2), leg_to(10, -10, 2)});
-  path.brake_from(4.54);
-  EXPECT_NEAR(path.end()[Z], -9.98, 1e-9) << "4.54 + 0.45 revolutions are before the corner";
+  path.brake_from(4.48);
+  EXPECT_NEAR(path.end()[Z], -9.984, 1e-9) << "4.48 + 0.512 revolutions are before the corner";
   auto beyond = path_of({leg_to(0, -10, 2), leg_to(10, -10, 2)});
   beyond.brake_from(4.6);
   EXPECT_EQ(beyond.end()[Z], -10) << "the corner has begun";
-  EXPECT_NEAR(beyond.end()[X], 1.8, 1e-9) << "0.45 revolutions behind the corner and 0.45 more";
+  EXPECT_NEAR(beyond.end()[X], 2.048, 1e-9) << "0.512 revolutions behind the corner and 0.512 more";
   expect_limits(beyond, 8);
 }
 

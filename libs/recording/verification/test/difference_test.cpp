@@ -60,6 +60,46 @@ TEST(Difference, OneBitIsFoundWithItsCycleFieldAndNeighbourhood) {
   EXPECT_TRUE(topic(d, "path_batch").equal());
 }
 
+TEST(Difference, AngleOfASpindleAndSpindleOfATapAreCompared) {
+  auto a = sample_recording();
+  for (auto& message : a.messages) {
+    idl::stream::Feedback executed;
+    if (message.topic->handle != "feedback" || !bus::decode(message.cdr, executed)) continue;
+    executed.spindle_speed = {60};
+    for (std::uint32_t i = 0; i < executed.count; ++i)
+      executed.spindle_angle.push_back(0.001 * static_cast<double>(executed.first + i));
+    bus::encode(executed, message.cdr);
+  }
+  EXPECT_TRUE(difference(a.messages, a.messages, {}).equal());
+  auto b = a;
+  for (auto& message : b.messages) {
+    idl::stream::Feedback executed;
+    if (message.topic->handle != "feedback" || !bus::decode(message.cdr, executed) || executed.first != 400)
+      continue;
+    executed.spindle_angle[5] = std::nextafter(executed.spindle_angle[5], 1);
+    bus::encode(executed, message.cdr);
+  }
+  const auto turned = difference(a.messages, b.messages, {});
+  ASSERT_FALSE(turned.equal());
+  EXPECT_EQ(turned.first->topic, "feedback");
+  EXPECT_EQ(turned.first->field, "spindle_angle[0]");
+  EXPECT_EQ(turned.first->index, 405u);
+
+  b = a;
+  for (auto& message : b.messages) {
+    idl::stream::PathBatch batch;
+    if (message.topic->handle != "path_batch" || !bus::decode(message.cdr, batch) || batch.first != 400)
+      continue;
+    batch.spindle_axis = 4;
+    batch.spindle.assign(batch_cycles, 0.25);
+    bus::encode(batch, message.cdr);
+  }
+  const auto tapped = difference(a.messages, b.messages, {});
+  ASSERT_FALSE(tapped.equal());
+  EXPECT_EQ(tapped.first->topic, "path_batch");
+  EXPECT_EQ(tapped.first->index, 400u);
+}
+
 TEST(Difference, OfOneCycleTheEarlierStageComesFirstAndOfTwoTheEarlierCycle) {
   const auto a = sample_recording();
   auto b = a;

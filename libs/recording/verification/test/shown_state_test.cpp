@@ -70,6 +70,29 @@ TEST(ShownState, ASpindleIsShownWithItsAngleInHundredthsOfADegree) {
   EXPECT_FALSE(shown_of(recording)["drive"].contains("spindles")) << "a machine without a spindle";
 }
 
+// 0.00125 rev are 0.45 deg; 0.0000004 rev are 0.000144 deg, which rounds to 0.
+TEST(ShownState, ASpindleThatFollowsIsShownWithMasterErrorAndCorrection) {
+  StoredRecording recording;
+  auto batch = feedback(100, 0);
+  batch.spindles.resize(2);
+  auto& slave = batch.spindles[1];
+  slave.reference = -999.004;
+  slave.master = 0;
+  slave.synchronization_error = -0.00125;
+  slave.correction = 1.256;
+  batch.spindles[0].master = -1;
+  batch.spindles[0].synchronization_error = 0.0000004;
+  recording.messages.push_back(stored(topics::feedback, batch, 1));
+  const auto spindles = shown_of(recording)["drive"]["spindles"];
+  ASSERT_EQ(spindles.size(), 2u);
+  EXPECT_EQ(spindles[0]["master"], -1);
+  EXPECT_EQ(spindles[0]["synchronization_error"], 0.0);
+  EXPECT_EQ(spindles[1]["reference"], -999.0);
+  EXPECT_EQ(spindles[1]["master"], 0);
+  EXPECT_EQ(spindles[1]["synchronization_error"], -0.45);
+  EXPECT_EQ(spindles[1]["correction"], 1.26);
+}
+
 TEST(ShownState, AxesAreTheLastRowOfTheFeedbackUnderTheirLogicalNumbers) {
   StoredRecording recording;
   idl::parameters::ParameterSet set;

@@ -205,20 +205,43 @@ TEST(Csv, HasTheAngleOfTheSpindlesInEachCycleAndTheirSpeedInTheLastOfABatch) {
   EXPECT_EQ(lines[2], "1,0,0,0,1,1,0.5,0.5,0.75,1000,1,1,2,0.5,0.25,1970-01-01T00:00:00.000000007Z");
 }
 
-TEST(Csv, HasConditionAndReferenceOfEachSpindleWhereTheyWereRecorded) {
+TEST(Csv, HasTheStateOfEachSpindleWhereItWasRecorded) {
   auto turned = feedback(0, 1);
   turned.spindle_angle = {0.5};
   turned.spindle_speed = {1000};
   turned.spindles.resize(1);
   turned.spindles[0].condition = idl::stream::SpindleCondition::SPINDLE_ACCELERATING;
   turned.spindles[0].reference = 1500.5;
+  turned.spindles[0].homed = true;
+  turned.spindles[0].gear = 2;
+  turned.spindles[0].master = -1;
   const auto lines = csv_lines(stored(topics::feedback, turned, 7));
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0],
             "cycle,channel,epoch,revision,commanded[0],commanded[1],actual[0],actual[1],spindle_angle[0],"
-            "spindle_speed[0],spindle_condition[0],spindle_reference[0],time_utc");
+            "spindle_speed[0],spindle_condition[0],spindle_reference[0],spindle_homed[0],spindle_gear[0],"
+            "spindle_master[0],spindle_synchronization_error[0],spindle_correction[0],time_utc");
   EXPECT_EQ(lines[1],
-            "0,0,0,0,1,1,0.5,0.5,0.5,1000,SPINDLE_ACCELERATING,1500.5,1970-01-01T00:00:00.000000007Z");
+            "0,0,0,0,1,1,0.5,0.5,0.5,1000,SPINDLE_ACCELERATING,1500.5,1,2,-1,0,0,"
+            "1970-01-01T00:00:00.000000007Z");
+}
+
+TEST(Csv, HasMasterErrorAndCorrectionOfASpindleThatFollows) {
+  auto turned = feedback(0, 1);
+  turned.spindles.resize(2);
+  turned.spindles[0].master = -1;
+  turned.spindles[1].condition = idl::stream::SpindleCondition::SPINDLE_SYNCHRONIZED;
+  turned.spindles[1].master = 0;
+  turned.spindles[1].synchronization_error = -0.125;
+  turned.spindles[1].correction = 1.5;
+  const auto lines = csv_lines(stored(topics::feedback, turned, 7));
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_TRUE(lines[0].ends_with(
+      ",spindle_condition[1],spindle_reference[1],spindle_homed[1],spindle_gear[1],spindle_master[1],"
+      "spindle_synchronization_error[1],spindle_correction[1],time_utc"))
+      << lines[0];
+  EXPECT_TRUE(lines[1].ends_with(",SPINDLE_SYNCHRONIZED,0,0,0,0,-0.125,1.5,1970-01-01T00:00:00.000000007Z"))
+      << lines[1];
 }
 
 TEST(Csv, HasTheSetpointOfACoupledSpindle) {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a line of the ISO dialect is when it is not executed.
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+#include "language/iso_dialect.hpp"
+#include "language/iso_line.hpp"
+#include "language/scanner.hpp"
+
+namespace trunnion::language {
+namespace {
+
+std::uint32_t plain_number(Scanner& scanner) {
+  std::uint32_t number = 0;
+  for (scanner.skip_blanks(); !scanner.at_end() && is_digit(scanner.peek()); scanner.advance()) {
+    number = number > highest_label ? number : number * 10 + static_cast<unsigned>(scanner.peek() - '0');
+  }
+  return number;
+}
+
+/// Whether `word` is somewhere in the rest of the line outside a comment; the scanner is then behind it.
+bool find_word(Scanner& scanner, std::string_view word) {
+  while (!scanner.at_end() && scanner.peek() != ';') {
+    if (scanner.take_word(word)) return true;
+    if (scanner.peek() != '(') {
+      scanner.advance();
+    } else if (!scanner.skip_comment()) {
+      return false;
+    }
+  }
+  return false;
+}
+
+/// Of ELSE and the ends the scanner is behind the word then, and behind the number of END.
+Statement outline_statement(Scanner& scanner, std::uint32_t& label) {
+  if (scanner.take_word("IF")) {
+    Scanner rest = scanner;
+    if (find_word(rest, "GOTO")) return Statement::none;
+    rest = scanner;
+    if (find_word(rest, "THEN") && !nothing_follows(rest)) return Statement::none;
+    return Statement::begin_if;
+  }
+  if (scanner.take_word("WHILE")) {
+    if (!find_word(scanner, "DO") || !scanner.more() || !is_digit(scanner.peek()))
+      return Statement::begin_while;
+    label = plain_number(scanner);
+    return Statement::begin_do;
+  }
+  if (scanner.take_word("DO")) {
+    label = plain_number(scanner);
+    return Statement::begin_do;
+  }
+  if (scanner.take_word("ENDW")) return Statement::end_while;
+  if (scanner.take_word("ENDIF")) return Statement::end_if;
+  if (scanner.take_word("END")) {
+    Scanner digits = scanner;
+    label = plain_number(digits);
+    scanner.skip_blanks();
+    scanner.number();
+    return Statement::end_do;
+  }
+  if (scanner.take_word("ELSEIF")) return Statement::else_if;
+  if (scanner.take_word("ELSE")) return Statement::else_;
+  return Statement::none;
+}
+
+/// A jump may lead behind the line, so that read_block does not see it.
+bool is_passed(Statement statement) {
+  return statement == Statement::else_ || statement == Statement::end_if ||
+         statement == Statement::end_while || statement == Statement::end_do;
+}
+
+}  // namespace
+
+Outline IsoDialect::outline(std::string_view line, SkipLevels skip) const {
+  Outline outline;
+  Scanner scanner(line);
+  if (!scanner.more() || scanner.peek() == '*') return outline;
+  const bool skip_is_read = scanner.peek() == '/';
+  if (skip_is_read && read_skip(scanner, skip)) return outline;
+  if (scanner.at_end()) return outline;
+  if (starts_head(scanner.peek())) {
+    if (read_head(scanner, outline.head, outline.program_number)) outline.head = Head::none;
+  }
+  if (!skip_comments(scanner) || scanner.at_end()) return outline;
+  if (letter(scanner.peek()) == 'N') {
+    scanner.advance();
+    scanner.skip_blanks();
+    const Decimal number = scanner.number();
+    if (number.status != DecimalStatus::ok) return outline;
+    if (!skip_comments(scanner)) return outline;
+    if (!skip_is_read && !scanner.at_end() && scanner.peek() == '/' && read_skip(scanner, skip)) {
+      return outline;
+    }
+    if (number.value >= 0 && number.value == std::floor(number.value)) {
+      outline.sequence_number = static_cast<std::uint32_t>(number.value);
+    }
+    if (!skip_comments(scanner)) return outline;
+  }
+  if (!scanner.at_end() && letter(scanner.peek()) != '\0' && letter(scanner.peek(1)) != '\0') {
+    outline.statement = outline_statement(scanner, outline.label);
+    if (is_passed(outline.statement)) outline.behind = end_of_line(scanner);
+  }
+  return outline;
+}
+
+}  // namespace trunnion::language
