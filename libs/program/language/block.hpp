@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -12,7 +13,7 @@
 
 namespace trunnion::language {
 
-inline constexpr std::size_t max_g_codes = 12;
+inline constexpr std::size_t max_g_codes = 20;
 inline constexpr std::size_t max_m_codes = 8;
 /// Letters I J K of one macro call: ten of each.
 inline constexpr std::size_t max_call_centres = 30;
@@ -28,7 +29,7 @@ struct CodeWord {
 enum class Head : std::uint8_t {
   none,
   tape_mark,  ///< a lone %: before the program its start, behind it its end
-  program,    ///< %1234 or O1234
+  program,    ///< %1234, O1234, :1234 or <NAME>
 };
 
 /// What a block does beside its words, which in the NUM dialect may be behind THEN and DO, too. IF ... GOTO
@@ -60,6 +61,8 @@ struct CallCentre {
 
 /// Words behind a comma, kept as two further letters: ,C a chamfer and ,R a rounding at the end of the move.
 inline constexpr char chamfer_word = 'A' + 26, rounding_word = 'A' + 27;
+/// The second of two T words (ISO). No letter of the NUM dialect is twice in a block.
+inline constexpr char second_tool_word = 'A' + 31;
 /// The NUM dialect has no commas, but words of two letters: EC, EX and EZ of threads, EK, EH and ER of rigid
 /// tapping.
 inline constexpr char taught_angle_word = 'A' + 26, taught_x_word = 'A' + 27, taught_z_word = 'A' + 28;
@@ -79,6 +82,7 @@ struct Block {
   bool skipped = false;       ///< begins with / and that level is switched on; nothing else of it was read
   bool message = false;       ///< shows the text at message_at of its line (NUM)
   bool ends_program = false;  ///< its M2 ends the program also where it is called (NUM)
+  bool two_tools = false;     ///< T and second_tool_word
   bool condition = false;
   char lead_word = 'F';  ///< of threads and taps; with K (NUM), F is a feed
   ThreadBlock thread = ThreadBlock::chained;
@@ -112,7 +116,7 @@ struct Block {
   /// Makes the block empty; what is absent keeps what it had and means nothing.
   void clear() {
     head = Head::none;
-    skipped = message = ends_program = false;
+    skipped = message = ends_program = two_tools = false;
     lead_word = 'F';
     thread = ThreadBlock::chained;
     statement = Statement::none;
@@ -130,6 +134,13 @@ struct Outline {
   std::optional<std::uint32_t> sequence_number;  ///< N
   std::uint32_t label = 0;                       ///< of begin_do and end_do
   Fault behind;  ///< of else_ and the ends: what read_block finds wrong behind the word
+};
+
+/// What a line is in front of a program, where a post, a printer or a transmission may leave text.
+struct Leader {
+  static constexpr std::size_t no_mark = static_cast<std::size_t>(-1);
+  bool passes = false;         ///< it cannot be a block
+  std::size_t mark = no_mark;  ///< the byte with which the program begins: its %
 };
 
 /// Bit n - 1 for block skip level n: /1 .. /9; a lone / is /1.
@@ -157,6 +168,11 @@ class Dialect {
                                bool& condition) const = 0;
   /// Reads no more than that; never fails, because read_block reads the line when it is executed.
   virtual Outline outline(std::string_view line, SkipLevels skip) const = 0;
+  /// Of a line that read_block refuses before the program has begun.
+  virtual Leader leader(std::string_view line) const {
+    static_cast<void>(line);
+    return {};
+  }
 };
 
 }  // namespace trunnion::language

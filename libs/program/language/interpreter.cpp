@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "language/iso_dialect.hpp"
+#include "language/iso_line.hpp"
 #include "language/num_dialect.hpp"
 #include "text/utf8.hpp"
 
@@ -84,6 +85,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   message_size_ = 0;
   stop_line_ = 0;
   else_if_due_ = false;
+  had_leader_ = false;
   modal_calls_.leave(0);
   levels_[0] = CallLevel{};
   levels_[0].source = &text;
@@ -211,9 +213,13 @@ Interpreter::State Interpreter::execute(std::string_view line) {
 Interpreter::State Interpreter::execute_block(std::string_view line) {
   CallLevel& level = levels_[depth_];
   if (const Fault fault = dialect_->read_block(line, options_.block_skip, variables_, block_))
-    return fail(fault, line);
+    return level.started ? fail(fault, line) : pass_leader(fault, line);
   if (block_.skipped) return State::running;
-  if (block_.head != Head::none && level.started) return end_of_text();
+  if (block_.head != Head::none && level.started) {
+    // On other controls : is a main block in the middle of a program.
+    if (is_colon_head(line)) return fail({AlarmNumber::colon_in_program, 0}, line);
+    return end_of_text();
+  }
   if (block_.head == Head::program) {
     level.started = true;
     control_.set_program_number(block_.program_number);
@@ -291,6 +297,7 @@ AxisValues Interpreter::workpiece(const Command& command) const {
 }
 
 Interpreter::State Interpreter::end_of_text() {
+  if (had_leader_ && !levels_[0].started) return fail(not_found_);
   OpenStructures& open = levels_[depth_].open;
   if (rules_.text_closes_else) open.close_divided();
   if (open.size() != 0) {

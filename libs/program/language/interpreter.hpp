@@ -169,6 +169,7 @@ class Interpreter {
     label,    ///< a sequence number
     branch,   ///< ELSEIF, ELSE or ENDIF of the innermost IF
     end,      ///< the end of the innermost structure
+    leader,   ///< the % behind text that is no program
   };
   struct Search {
     Purpose purpose = Purpose::program;
@@ -204,6 +205,8 @@ class Interpreter {
   State search(Purpose purpose, std::uint32_t wanted, TextPosition from);
   State arrive(const JumpCache::Target& target);
   State search_line(Step& step);
+  State pass_leader(const Fault& fault, std::string_view line);
+  State pass_leader(const Leader& leader, TextPosition position);
   State label_found(TextPosition position);
   bool structure_found(Statement statement) const;
   State search_ended();
@@ -244,6 +247,7 @@ class Interpreter {
   std::uint64_t blocks_ = 0, lines_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
+  bool had_leader_ = false;   // of the started text
   // A jump or a call that looks for its target, and the alarms if it is not found or not allowed.
   Search search_;
   JumpCache jumps_;

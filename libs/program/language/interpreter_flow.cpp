@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of Interpreter that branches, loops and jumps.
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 
 #include "language/interpreter.hpp"
 
 namespace trunnion::language {
+namespace {
+
+/// Behind so many bytes no text is in front of a program.
+constexpr std::uint64_t longest_leader = 16384;
+
+}  // namespace
 
 Interpreter::State Interpreter::run_statement(std::string_view line) {
   CallLevel& level = levels_[depth_];
@@ -112,6 +120,11 @@ Interpreter::State Interpreter::search_line(Step& step) {
   const LineReader::Status status = reader_.next(line);
   if (status == LineReader::Status::end) return search_ended();
   if (status != LineReader::Status::line) return report_line_status(status, step);
+  if (search_.purpose == Purpose::leader) {
+    const Leader leader = dialect_->leader(line);
+    if (!leader.passes || position.offset > longest_leader) return fail(not_found_);
+    return pass_leader(leader, position);
+  }
   const Outline outline = dialect_->outline(line, options_.block_skip);
   if (search_.purpose == Purpose::program) {
     if (outline.head != Head::program || outline.program_number != search_.wanted) return State::searching;
@@ -147,6 +160,29 @@ Interpreter::State Interpreter::search_line(Step& step) {
   if (alarm == AlarmNumber::none) return State::searching;
   line_ = position.line;
   return fail({alarm, 0}, {});
+}
+
+// Blank tape, and text in front of the % with which a tape begins, are none of the program. What could be a
+// block is.
+Interpreter::State Interpreter::pass_leader(const Fault& fault, std::string_view line) {
+  const std::size_t blank = std::min(line.find_first_not_of('\0'), line.size());
+  const bool blank_tape = blank != 0 && line.find('\0', blank) == std::string_view::npos;
+  const Leader leader = blank_tape ? Leader{true, blank} : dialect_->leader(line);
+  if (!leader.passes || leader.mark == 0) return fail(fault, line);
+  not_found_ = located(fault, line);
+  search_.purpose = Purpose::leader;
+  search_.source = levels_[depth_].source;
+  return pass_leader(leader, position_);
+}
+
+// A text that has nothing else ends with the alarm of its first line.
+Interpreter::State Interpreter::pass_leader(const Leader& leader, TextPosition position) {
+  if (leader.mark == Leader::no_mark) return State::searching;
+  CallLevel& level = levels_[depth_];
+  level.top = {position.offset + leader.mark, position.line};
+  reader_.seek(*level.source, level.top);
+  had_leader_ = had_leader_ || depth_ == 0;
+  return State::running;
 }
 
 bool Interpreter::structure_found(Statement statement) const {

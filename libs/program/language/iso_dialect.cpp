@@ -9,6 +9,7 @@
 #include "language/iso_line.hpp"
 #include "language/letters.hpp"
 #include "language/scanner.hpp"
+#include "language/spaced_number.hpp"
 #include "text/utf8.hpp"
 
 namespace trunnion::language {
@@ -20,12 +21,19 @@ class BlockReader {
       : line_(line), skip_(skip), scanner_(line), variables_(variables), block_(block) {}
 
   Fault read() {
+    const Fault fault = read_items();
+    return fault ? explained(fault) : fault;
+  }
+
+ private:
+  Fault read_items() {
     block_.clear();
     if (!scanner_.more() || scanner_.peek() == '*') return {};
     if (scanner_.peek() == '/') {
-      skip_is_read_ = true;
-      block_.skipped = read_skip(scanner_, skip_);
-      if (block_.skipped) return {};
+      if (take_skip()) {
+        block_.skipped = true;
+        return {};
+      }
     }
     if (!scanner_.at_end() && starts_head(scanner_.peek())) {
       if (const Fault fault = read_head(scanner_, block_.head, block_.program_number)) return fault;
@@ -38,7 +46,14 @@ class BlockReader {
     return {};
   }
 
- private:
+  /// What is wrong behind a comment in a comment is that the first ) has ended both.
+  Fault explained(const Fault& fault) const {
+    if (fault.number == value_pending || calls_cycle_) return fault;
+    const std::size_t inner = find_nested_comment(line_);
+    if (inner == std::string_view::npos || inner > fault.offset) return fault;
+    return {AlarmNumber::comment_in_comment, static_cast<std::uint16_t>(inner)};
+  }
+
   /// Nothing but N and a block skip was read: here a statement may begin.
   bool at_start() const { return block_.head == Head::none && !word_is_read_; }
 
@@ -60,15 +75,60 @@ class BlockReader {
       done = true;
       return assignments();
     }
-    if (c == '/' && !skip_is_read_ && block_.has('N') && at_start()) {
-      skip_is_read_ = true;
-      done = block_.skipped = read_skip(scanner_, skip_);
+    if (c == ',') return comma_word(at);
+    if (c == '/') return skip(at, done);
+    return rare_item(c, at);
+  }
+
+  Fault rare_item(char c, std::uint16_t at) {
+    if (is_transmission(c)) {
+      scanner_.advance();
       return {};
     }
-    if (c == ',') return comma_word(at);
-    if (c == '%' || c == '/') return {AlarmNumber::misplaced_head, at};
+    if (c == '.' || is_digit(c)) return continue_number(at);
+    if (begins_head(c)) {
+      if (may_be_head()) return read_head(scanner_, block_.head, block_.program_number);
+      if (c == '<' && block_.m_count != 0) return {AlarmNumber::call_by_name, at};
+      if (c != '<') return {AlarmNumber::misplaced_head, at};
+    }
     const bool broken = text::valid_utf8_prefix(line_.substr(at, 4)) == 0;
     return {broken ? AlarmNumber::not_utf8 : AlarmNumber::unknown_character, at};
+  }
+
+  /// Nothing but comments and a block skip was read.
+  bool may_be_head() const { return at_start() && !block_.has('N'); }
+
+  /// O behind comments, or a misplaced one.
+  Fault late_head(std::uint16_t at) {
+    if (!may_be_head()) return {AlarmNumber::misplaced_head, at};
+    scanner_ = Scanner(line_, at);
+    return read_head(scanner_, block_.head, block_.program_number);
+  }
+
+  /// Whether a level of the / here is on.
+  bool take_skip() {
+    const BlockSkip found = read_skip(scanner_, skip_);
+    skip_is_read_ = true;
+    lone_skip_ = !found.numbered;
+    return found.active;
+  }
+
+  /// In the middle of a block / leaves out the rest of it. A / without a level has no other one in its block.
+  Fault skip(std::uint16_t at, bool& done) {
+    const bool start = at_start();
+    const bool numbered = is_skip_level(scanner_.peek(1));
+    if ((skip_is_read_ && (lone_skip_ || !numbered)) || follows_variable(at))
+      return {AlarmNumber::misplaced_head, at};
+    done = take_skip();
+    block_.skipped = done && start;
+    if (!start && nothing_follows(scanner_)) return {AlarmNumber::misplaced_head, at};
+    return {};
+  }
+
+  /// X#1/2 and X[#1]/2 mean a half.
+  bool follows_variable(std::size_t at) const {
+    while (at > 0 && (is_digit(line_[at - 1]) || line_[at - 1] == '.')) --at;
+    return at > 0 && (line_[at - 1] == '#' || line_[at - 1] == ']');
   }
 
   /// The number behind a letter, literal or computed; N is literal, because jumps look for it in the text.
@@ -79,7 +139,8 @@ class BlockReader {
     while (ahead != 0 && is_blank(scanner_.peek(ahead))) ++ahead;
     const char c = scanner_.peek(ahead);
     if (!may_be_computed || (c != '#' && c != '[')) {
-      const Decimal decimal = scanner_.number();
+      Decimal decimal = scanner_.number();
+      if (decimal.status == DecimalStatus::missing && may_be_computed) decimal = read_spaced_number(scanner_);
       if (decimal.status == DecimalStatus::missing) return {AlarmNumber::number_missing, at};
       if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
       value = Value::of(decimal.value);
@@ -109,17 +170,16 @@ class BlockReader {
       value = Value::of(0);
       point_ = false;
     } else if (const Fault fault = number(at, name != 'N', value)) {
-      return fault;
+      return name == 'O' ? late_head(at) : fault;
     }
-    if (name == 'O') return {AlarmNumber::misplaced_head, at};
+    if (name == 'O') return late_head(at);
     // A word counts even when it is left out because its variable is vacant.
     word_is_read_ = word_is_read_ || name != 'N';
     if (!value.given) return {};
     if (name == 'G') {
       if (block_.g_count == max_g_codes) return {AlarmNumber::too_many_codes, at};
       block_.g[block_.g_count++] = {value.number, at};
-      calls_macro_ = calls_macro_ || value.number == 65 || value.number == 66;
-      homes_ = homes_ || value.number == 28.2 || value.number == 159;
+      note_code(value.number);
       return {};
     }
     if (name == 'M') {
@@ -132,7 +192,9 @@ class BlockReader {
       if (block_.centre_count == max_call_centres) return {AlarmNumber::too_many_centres, at};
       block_.centres[block_.centre_count++] = {name, at, value.number};
     } else if (block_.has(name)) {
-      return {AlarmNumber::letter_twice, at};
+      if (name != 'T' || block_.two_tools) return {AlarmNumber::letter_twice, at};
+      block_.two_tools = true;
+      name = second_tool_word;
     }
     const auto index = static_cast<std::size_t>(name - 'A');
     block_.letters |= Block::bit(name);
@@ -140,6 +202,49 @@ class BlockReader {
     block_.values[index] = value.number;
     block_.offsets[index] = at;
     return {};
+  }
+
+  void note_code(double code) {
+    calls_macro_ = calls_macro_ || code == 65 || code == 66;
+    homes_ = homes_ || code == 28.2 || code == 159;
+  }
+
+  /// The . or the digits at `at` belong to the number of the word before: X1 . 5. Two groups of digits
+  /// without a point between them are refused: where a letter is forgotten, X5 5 would be X55.
+  Fault continue_number(std::uint16_t at) {
+    const Fault unknown{AlarmNumber::unknown_character, at};
+    std::size_t first = at;
+    while (first > 0 && (is_blank(line_[first - 1]) || belongs_to_number(line_[first - 1]))) --first;
+    if (first == 0) return unknown;
+    const std::size_t place = first - 1;
+    const char name = letter(line_[place]);
+    if (name == '\0' || name == 'N') return unknown;
+    Scanner whole(line_, first);
+    const Decimal decimal = read_spaced_number(whole);
+    double* const value =
+        decimal.status == DecimalStatus::ok && whole.offset() > at ? newest_value(name, place) : nullptr;
+    if (value == nullptr) return unknown;
+    scanner_ = whole;
+    *value = decimal.value;
+    if (name == 'G') note_code(decimal.value);
+    return {};
+  }
+
+  static bool belongs_to_number(char c) { return is_digit(c) || c == '.' || c == '-' || c == '+'; }
+
+  /// That of the word at `place`, if it was the last one.
+  double* newest_value(char name, std::size_t place) {
+    if (name == 'G' && block_.g_count != 0 && block_.g[block_.g_count - 1u].offset == place)
+      return &block_.g[block_.g_count - 1u].value;
+    if (name == 'M' && block_.m_count != 0 && block_.m[block_.m_count - 1u].offset == place)
+      return &block_.m[block_.m_count - 1u].value;
+    if (block_.centre_count != 0 && block_.centres[block_.centre_count - 1u].offset == place)
+      return &block_.centres[block_.centre_count - 1u].value;
+    if (name == 'T' && block_.two_tools) name = second_tool_word;
+    const auto index = static_cast<std::size_t>(name - 'A');
+    if (!block_.has(name) || block_.offsets[index] != place) return nullptr;
+    block_.pointed |= Block::bit(name);
+    return &block_.values[index];
   }
 
   /// ,C or ,R.
@@ -233,7 +338,12 @@ class BlockReader {
     } else if (scanner_.take_word("ELSE")) {
       fault = state(Statement::else_);
     } else if (scanner_.looking_at("CYCLE")) {
+      calls_cycle_ = true;
       fault = cycle();
+    } else if (take_abbreviated(scanner_, "WHILE")) {
+      fault = loop();
+    } else if (take_abbreviated(scanner_, "END")) {
+      fault = labelled(Statement::end_do);
     } else {
       return {AlarmNumber::unknown_instruction, at};
     }
@@ -304,7 +414,7 @@ class BlockReader {
       scanner_.take_word("GOTO");
       return go_to();
     }
-    if (scanner_.more() && scanner_.take_word("THEN")) {
+    if (scanner_.more() && take_abbreviated(scanner_, "THEN")) {
       const Scanner behind = scanner_;
       if (end_of_statement().number == AlarmNumber::text_behind_statement) {
         scanner_ = behind;
@@ -332,7 +442,9 @@ class BlockReader {
   Block& block_;
   bool calls_macro_ = false;
   bool homes_ = false;  // G28.2 or G159 was read
+  bool calls_cycle_ = false;
   bool skip_is_read_ = false;
+  bool lone_skip_ = false;  // it had no level
   bool word_is_read_ = false;
   bool point_ = false;  // the newest number() has a decimal point
   /// Behind IF ... THEN on one line: nothing that opens or closes a structure may be here.
@@ -352,7 +464,7 @@ Fault IsoDialect::read_condition(std::string_view line, std::uint16_t rest, cons
   Value value;
   if (const Fault fault = ExpressionReader(scanner, variables).expression(value)) return fault;
   condition = value.number != 0;
-  if (scanner.more()) scanner.take_word("THEN");
+  if (scanner.more()) take_abbreviated(scanner, "THEN");
   if (!nothing_follows(scanner)) return {AlarmNumber::text_behind_statement, scanner.offset()};
   return {};
 }

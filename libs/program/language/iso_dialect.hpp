@@ -32,6 +32,7 @@ class IsoDialect final : public Dialect {
   Fault read_condition(std::string_view line, std::uint16_t rest, const Variables& variables,
                        bool& condition) const override;
   Outline outline(std::string_view line, SkipLevels skip) const override;
+  Leader leader(std::string_view line) const override;
 };
 
 }  // namespace trunnion::language

@@ -1,19 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/iso_line.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace trunnion::language {
+namespace {
+
+constexpr std::array<std::string_view, 10> instructions = {"IF",  "GOTO",  "WHILE", "WH",   "DO",
+                                                           "END", "ENDIF", "ENDW",  "ELSE", "ELSEIF"};
+
+bool begins_number(Scanner scanner) {
+  scanner.skip_blanks();
+  if (scanner.peek(0) == '-' || scanner.peek(0) == '+') {
+    scanner.advance();
+    scanner.skip_blanks();
+  }
+  const char c = scanner.peek(0);
+  return is_digit(c) || c == '.' || c == '#' || c == '[';
+}
+
+// Text behind a lone % is the title of the tape. What could be words would be left out without a sign of it.
+Fault skip_title(Scanner& scanner) {
+  Scanner ahead = scanner;
+  if (!skip_comments(ahead) || ahead.at_end() || ahead.peek() == ';') return {};
+  if (begins_block(ahead)) return {AlarmNumber::words_behind_percent, ahead.offset()};
+  while (!ahead.at_end()) ahead.advance();
+  scanner = ahead;
+  return {};
+}
+
+Fault skip_name(Scanner& scanner) {
+  const std::uint16_t at = scanner.offset();
+  while (!scanner.at_end() && scanner.peek() != '>') scanner.advance();
+  if (scanner.at_end()) return {AlarmNumber::unknown_character, at};
+  scanner.advance();
+  return {};
+}
+
+}  // namespace
 
 Fault read_head(Scanner& scanner, Head& head, std::uint32_t& number) {
   const std::uint16_t at = scanner.offset();
   const bool percent = scanner.peek() == '%';
-  scanner.advance();
-  scanner.skip_blanks();
-  if (scanner.at_end() || !is_digit(scanner.peek())) {
+  const auto behind = [&scanner](std::size_t bytes) {
+    scanner.advance(bytes);
+    scanner.skip_blanks();
+    return scanner.peek(0);
+  };
+  char next = scanner.peek() == '<' ? '<' : behind(1);
+  if (percent && (letter(next) == 'O' || next == ':')) {
+    Scanner digits = scanner;
+    digits.advance();
+    digits.skip_blanks();
+    if (is_digit(digits.peek(0))) next = behind(1);
+  }
+  if (!percent && next == '<') {
+    head = Head::program;
+    number = 0;
+    return skip_name(scanner);
+  }
+  if (!is_digit(next)) {
     if (!percent) return {AlarmNumber::number_missing, at};
     head = Head::tape_mark;
-    return {};
+    return skip_title(scanner);
   }
   const Decimal decimal = scanner.number();
   if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
@@ -23,35 +73,92 @@ Fault read_head(Scanner& scanner, Head& head, std::uint32_t& number) {
   return {};
 }
 
-bool read_skip(Scanner& scanner, SkipLevels skip) {
-  unsigned level = 1;
-  scanner.advance();
-  if (!scanner.at_end() && scanner.peek() >= '1' && scanner.peek() <= '9') {
-    level = static_cast<unsigned>(scanner.peek() - '0');
+bool is_colon_head(std::string_view line) {
+  Scanner scanner(line);
+  while (skip_comments(scanner) && scanner.peek(0) == '/') read_skip(scanner, 0);
+  return scanner.peek(0) == ':';
+}
+
+BlockSkip read_skip(Scanner& scanner, SkipLevels skip) {
+  BlockSkip found;
+  do {
+    unsigned level = 1;
     scanner.advance();
+    found.numbered = is_skip_level(scanner.peek(0));
+    if (found.numbered) {
+      level = static_cast<unsigned>(scanner.peek() - '0');
+      scanner.advance();
+    }
+    found.active = found.active || ((skip >> (level - 1)) & 1u) != 0;
+    scanner.skip_blanks();
+  } while (found.numbered && scanner.peek(0) == '/' && is_skip_level(scanner.peek(1)));
+  return found;
+}
+
+bool take_abbreviated(Scanner& scanner, std::string_view word) {
+  if (scanner.take_word(word)) return true;
+  return scanner.letters() == 2 && scanner.take_word(word.substr(0, 2));
+}
+
+bool begins_block(Scanner scanner) {
+  const char c = scanner.peek(0);
+  if (c == '#' || c == '/') return true;
+  if (letter(c) == '\0') return false;
+  const std::size_t letters = scanner.letters();
+  if (letters != 1) {
+    for (const std::string_view word : instructions)
+      if (letters == word.size() && scanner.looking_at(word)) return true;
+    return scanner.looking_at("CYCLE") && is_digit(scanner.peek(5));
   }
-  scanner.skip_blanks();
-  return ((skip >> (level - 1)) & 1u) != 0;
+  scanner.advance();
+  return begins_number(scanner);
 }
 
 Fault end_of_line(Scanner& scanner) {
-  while (scanner.more() && scanner.peek() == '(') {
+  while (scanner.more() && (scanner.peek() == '(' || is_transmission(scanner.peek()))) {
     const std::uint16_t at = scanner.offset();
-    if (!scanner.skip_comment()) return {AlarmNumber::open_comment, at};
+    if (scanner.peek() != '(') {
+      scanner.advance();
+    } else if (!scanner.skip_comment()) {
+      return {AlarmNumber::open_comment, at};
+    }
   }
   if (scanner.at_end() || scanner.peek() == ';') return {};
   return {AlarmNumber::text_behind_statement, scanner.offset()};
 }
 
 bool skip_comments(Scanner& scanner) {
-  while (scanner.more() && scanner.peek() == '(') {
-    if (!scanner.skip_comment()) return false;
+  while (scanner.more()) {
+    if (scanner.peek() == '(') {
+      if (!scanner.skip_comment()) return false;
+    } else if (is_transmission(scanner.peek())) {
+      scanner.advance();
+    } else {
+      return true;
+    }
   }
   return true;
 }
 
 bool nothing_follows(Scanner scanner) {
   return !skip_comments(scanner) || scanner.at_end() || scanner.peek() == ';';
+}
+
+std::size_t find_nested_comment(std::string_view line) {
+  std::size_t inner = std::string_view::npos;
+  bool comment = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '(') {
+      if (comment && inner == std::string_view::npos) inner = i;
+      comment = true;
+    } else if (line[i] == ')') {
+      if (!comment) return inner;
+      comment = false;
+    } else if (line[i] == ';' && !comment) {
+      break;
+    }
+  }
+  return std::string_view::npos;
 }
 
 }  // namespace trunnion::language

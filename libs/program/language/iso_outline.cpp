@@ -19,15 +19,29 @@ std::uint32_t plain_number(Scanner& scanner) {
   return number;
 }
 
-/// Whether `word` is somewhere in the rest of the line outside a comment; the scanner is then behind it.
-bool find_word(Scanner& scanner, std::string_view word) {
+/// Whether `take` takes something in the rest of the line outside a comment; the scanner is then behind it.
+template <class Take>
+bool find_where(Scanner& scanner, const Take& take) {
   while (!scanner.at_end() && scanner.peek() != ';') {
-    if (scanner.take_word(word)) return true;
+    if (take(scanner)) return true;
     if (scanner.peek() != '(') {
       scanner.advance();
     } else if (!scanner.skip_comment()) {
       return false;
     }
+  }
+  return false;
+}
+
+bool find_word(Scanner& scanner, std::string_view word) {
+  return find_where(scanner, [word](Scanner& at) { return at.take_word(word); });
+}
+
+/// Past comments and block skips; false where the rest of the line does not count.
+bool pass_skips(Scanner& scanner, SkipLevels skip) {
+  while (skip_comments(scanner)) {
+    if (scanner.at_end() || scanner.peek() != '/') return true;
+    if (read_skip(scanner, skip).active) return false;
   }
   return false;
 }
@@ -38,10 +52,11 @@ Statement outline_statement(Scanner& scanner, std::uint32_t& label) {
     Scanner rest = scanner;
     if (find_word(rest, "GOTO")) return Statement::none;
     rest = scanner;
-    if (find_word(rest, "THEN") && !nothing_follows(rest)) return Statement::none;
+    const bool then = find_where(rest, [](Scanner& at) { return take_abbreviated(at, "THEN"); });
+    if (then && !nothing_follows(rest)) return Statement::none;
     return Statement::begin_if;
   }
-  if (scanner.take_word("WHILE")) {
+  if (take_abbreviated(scanner, "WHILE")) {
     if (!find_word(scanner, "DO") || !scanner.more() || !is_digit(scanner.peek()))
       return Statement::begin_while;
     label = plain_number(scanner);
@@ -53,7 +68,7 @@ Statement outline_statement(Scanner& scanner, std::uint32_t& label) {
   }
   if (scanner.take_word("ENDW")) return Statement::end_while;
   if (scanner.take_word("ENDIF")) return Statement::end_if;
-  if (scanner.take_word("END")) {
+  if (take_abbreviated(scanner, "END")) {
     Scanner digits = scanner;
     label = plain_number(digits);
     scanner.skip_blanks();
@@ -63,6 +78,15 @@ Statement outline_statement(Scanner& scanner, std::uint32_t& label) {
   if (scanner.take_word("ELSEIF")) return Statement::else_if;
   if (scanner.take_word("ELSE")) return Statement::else_;
   return Statement::none;
+}
+
+/// O1234, :1234 or <NAME>.
+bool numbered_head(Scanner scanner) {
+  if (scanner.peek() == '<') return true;
+  if (!begins_head(scanner.peek())) return false;
+  scanner.advance();
+  scanner.skip_blanks();
+  return is_digit(scanner.peek(0)) || scanner.peek(0) == '<';
 }
 
 /// A jump may lead behind the line, so that read_block does not see it.
@@ -77,32 +101,47 @@ Outline IsoDialect::outline(std::string_view line, SkipLevels skip) const {
   Outline outline;
   Scanner scanner(line);
   if (!scanner.more() || scanner.peek() == '*') return outline;
-  const bool skip_is_read = scanner.peek() == '/';
-  if (skip_is_read && read_skip(scanner, skip)) return outline;
-  if (scanner.at_end()) return outline;
-  if (starts_head(scanner.peek())) {
+  if (!pass_skips(scanner, skip) || scanner.at_end()) return outline;
+  if (begins_head(scanner.peek())) {
     if (read_head(scanner, outline.head, outline.program_number)) outline.head = Head::none;
+    if (!pass_skips(scanner, skip) || scanner.at_end()) return outline;
   }
-  if (!skip_comments(scanner) || scanner.at_end()) return outline;
   if (letter(scanner.peek()) == 'N') {
     scanner.advance();
     scanner.skip_blanks();
     const Decimal number = scanner.number();
     if (number.status != DecimalStatus::ok) return outline;
-    if (!skip_comments(scanner)) return outline;
-    if (!skip_is_read && !scanner.at_end() && scanner.peek() == '/' && read_skip(scanner, skip)) {
-      return outline;
-    }
+    if (!pass_skips(scanner, skip)) return outline;
     if (number.value >= 0 && number.value == std::floor(number.value)) {
       outline.sequence_number = static_cast<std::uint32_t>(number.value);
     }
-    if (!skip_comments(scanner)) return outline;
   }
   if (!scanner.at_end() && letter(scanner.peek()) != '\0' && letter(scanner.peek(1)) != '\0') {
     outline.statement = outline_statement(scanner, outline.label);
     if (is_passed(outline.statement)) outline.behind = end_of_line(scanner);
   }
   return outline;
+}
+
+Leader IsoDialect::leader(std::string_view line) const {
+  Leader leader;
+  // Text with NUL in it is one of two bytes a character: a program that cannot be read, and no leader.
+  const std::size_t printed = line.find_first_not_of('\0');
+  if (printed != std::string_view::npos && line.find('\0', printed) != std::string_view::npos) return leader;
+  for (Scanner scanner(line); !scanner.at_end();) {
+    const char c = scanner.peek();
+    if (c == '%') leader.mark = scanner.offset();
+    if (c == '%' || c == ';' || c == '*') break;
+    if (c == '(') {
+      if (!scanner.skip_comment()) break;
+      continue;
+    }
+    if (numbered_head(scanner) || begins_block(scanner)) return leader;
+    if (letter(c) != '\0' || is_digit(c)) break;
+    scanner.advance();
+  }
+  leader.passes = true;
+  return leader;
 }
 
 }  // namespace trunnion::language

@@ -10,6 +10,26 @@
 namespace trunnion::language {
 
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
+/// A control character that a transmission or a printer leaves in a text and that means nothing: STX, ETX,
+/// EOT, VT, FF, DC1 to DC4, SUB and DEL. NUL is none of them: in a damaged file it stands for what is lost.
+constexpr bool is_transmission(char c) {
+  switch (c) {
+    case '\x02':
+    case '\x03':
+    case '\x04':
+    case '\v':
+    case '\f':
+    case '\x11':
+    case '\x12':
+    case '\x13':
+    case '\x14':
+    case '\x1a':
+    case '\x7f':
+      return true;
+    default:
+      return false;
+  }
+}
 /// A to Z for a letter of either case, else 0.
 constexpr char letter(char c) {
   if (c >= 'a' && c <= 'z') return static_cast<char>(c - 'a' + 'A');
