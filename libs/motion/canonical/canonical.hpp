@@ -64,6 +64,7 @@ struct ModalState {
   bool scaled = false;      ///< G51
   bool mirrored = false;    ///< G51.1, G24
   bool rotated = false;     ///< G68
+  bool absolute_centres = false;  ///< G90.1, else G91.1
   SpindleMode spindle_mode = SpindleMode::speed;
   SpindleDirection spindle_direction = SpindleDirection::stopped;
   double feed = 0;            ///< F as it applies: mm/min (deg/min for purely rotary moves), 1/min, mm/rev
@@ -93,6 +94,7 @@ struct ModalState {
     visit("tool_vector", self.tool_vector), visit("plane_only", self.plane_only);
     visit("polar", self.polar), visit("scaled", self.scaled);
     visit("mirrored", self.mirrored), visit("rotated", self.rotated);
+    visit("absolute_centres", self.absolute_centres);
     visit("spindle_mode", self.spindle_mode), visit("spindle_direction", self.spindle_direction);
     visit("feed", self.feed), visit("spindle_speed", self.spindle_speed);
     visit("surface_speed", self.surface_speed), visit("spindle_limit", self.spindle_limit);

@@ -134,6 +134,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   plane_angles_by_p_ = p.integer(parameter::plane_angles, channel_) == 1;
   program_dialect_ = static_cast<language::ProgramDialect>(p.integer(parameter::program_dialect, channel_));
   dwell_point_ = static_cast<language::DwellPoint>(p.integer(parameter::dwell_point, channel_));
+  two_tool_words_ = static_cast<language::TwoToolWords>(p.integer(parameter::two_tool_words, channel_));
   cycles_ = {p.get(parameter::cycle_retract, channel_), p.get(parameter::cycle_clearance, channel_),
              p.integer(parameter::cycle_shift_axis, channel_)};
   cutter_ = {p.integer(parameter::cutter_feed_at_contour) != 0,

@@ -76,6 +76,7 @@ class ChannelSetup : public language::Environment {
   const language::MFunctions* m_functions() const override { return &m_functions_; }
   language::AngleMCodes angle_m_codes() const override { return angle_m_codes_; }
   language::DwellPoint dwell_point() const override { return dwell_point_; }
+  language::TwoToolWords two_tool_words() const override { return two_tool_words_; }
   language::ProgramDialect program_dialect() const override { return program_dialect_; }
   /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
   std::optional<double> external_parameter(std::uint32_t number) const override;
@@ -181,6 +182,7 @@ class ChannelSetup : public language::Environment {
   language::MFunctions m_functions_;
   bool plane_angles_by_p_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
+  language::TwoToolWords two_tool_words_ = language::TwoToolWords::refused;
   language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;
   struct ExternalParameter {
     double value = 0;

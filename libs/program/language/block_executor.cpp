@@ -34,6 +34,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
     state.thread_lead = 0;
+    state.length_given = false;
   }
   state.needs_position = state.homing = false;
   state.homed = 0;
@@ -207,6 +208,7 @@ Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
     command.number = code.number;
     command.value = angle;
     command.has_value = word != '\0';
+    if (code.action == MAction::tool_change) return handlers_.modal.ready_tool();
   } else if (code.action == MAction::program_end) {
     if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, at};
     if (const Fault fault = context_.output.push_end(code.number)) return fault;
@@ -307,7 +309,10 @@ Fault BlockExecutor::set_call(Flow& flow) {
   if (const Fault fault = words.whole_number('P', 1, 99999999, flow.subprogram)) return fault;
   if (!words.has('L')) return {};
   flow.counted = true;
-  return words.whole_number('L', 1, highest_repetition, flow.repetitions);
+  const Fault fault = words.whole_number('L', 0, highest_repetition, flow.repetitions);
+  // As in LinuxCNC a call no times is none.
+  if (!fault && flow.repetitions == 0) flow.kind = Flow::Kind::next;
+  return fault;
 }
 
 void BlockExecutor::set_position(const AxisValues& position) {

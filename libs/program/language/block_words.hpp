@@ -72,6 +72,8 @@ class BlockWords {
   /// Where the block's first code is, or its first letter when it has none.
   std::uint16_t first_offset() const;
   bool has_codes() const { return block_->g_count != 0 || block_->m_count != 0; }
+  /// As Block::two_tools.
+  bool two_tools() const { return block_->two_tools; }
   /// As Block::message.
   bool shows_message() const { return block_->message; }
   /// As Block::called.

@@ -21,6 +21,7 @@ enum class Group : std::uint8_t {
   spindle_mode,
   plane,
   distance,
+  arc_distance,
   return_level,
   path_control,
   work_offset,
@@ -35,15 +36,16 @@ enum class Group : std::uint8_t {
   rotation,
   one_block,
 };
-inline constexpr std::size_t group_count = 19;
+inline constexpr std::size_t group_count = 20;
 
 /// Where a code comes from.
 enum class Origin : std::uint8_t {
-  iso,     ///< ISO 6983, and the same on every control of this family
-  fanuc,   ///< as on Fanuc controls
-  hnc,     ///< as on HNC-8 controls
-  num,     ///< as on NUM controls
-  g2core,  ///< as on g2core and TinyG
+  iso,       ///< ISO 6983, and the same on every control of this family
+  fanuc,     ///< as on Fanuc controls
+  hnc,       ///< as on HNC-8 controls
+  num,       ///< as on NUM controls
+  g2core,    ///< as on g2core and TinyG
+  linuxcnc,  ///< as in LinuxCNC
 };
 
 /// What the axis words of a block with the code mean.
@@ -114,7 +116,7 @@ inline constexpr std::array m_codes = {
     MCode{98, When::after, MAction::call, MGroup::flow, "subprogram call: P number, L repetitions"},
     MCode{99, When::after, MAction::go_back, MGroup::flow, "subprogram end"},
 };
-inline constexpr std::uint16_t highest_m = 999;
+inline constexpr std::uint16_t highest_m = 9999;
 
 /// Every M code the table does not name goes to the PLC before the motion: clamps must open before an axis
 /// moves.

@@ -27,6 +27,14 @@ struct ToolOffset {
 /// machine does not say.
 enum class DwellPoint : std::uint8_t { refused, seconds, milliseconds };
 
+/// What two T words in one block mean: controls differ in the tool that M6 then changes to, so they are
+/// refused when the machine does not say.
+enum class TwoToolWords : std::uint8_t {
+  refused,
+  last,              ///< the second one counts
+  change_and_ready,  ///< M6 of the block changes to the first one, and the second one is made ready
+};
+
 /// How canned cycles move where no word gives it.
 struct CycleSettings {
   double retract = 1;    ///< mm, between two pecks of G73 and of tapping
@@ -153,6 +161,8 @@ class Environment {
   virtual AngleMCodes angle_m_codes() const { return {19, -1, -1, -1}; }
   /// What a decimal point in the P of a dwell means (parameter 040918).
   virtual DwellPoint dwell_point() const { return DwellPoint::refused; }
+  /// What two T words in one block mean (parameter 040680).
+  virtual TwoToolWords two_tool_words() const { return TwoToolWords::refused; }
   /// F of a move of linear and rotary axes without tool tip control counts both (parameter 040919).
   virtual bool combined_feed() const { return true; }
   /// P of G68.2 states the kind of its angles, as on Fanuc, and not the solution of the rotary axes

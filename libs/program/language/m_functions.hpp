@@ -12,7 +12,7 @@ namespace trunnion::language {
 /// are in no list.
 class MFunctions {
  public:
-  static constexpr std::size_t codes = 1000;  ///< M0 to M999
+  static constexpr std::size_t codes = 10000;  ///< M0 to M9999
 
   /// `3 4 5 19; 7 8 9; 70-79`: groups divided by semicolons, codes by blanks. Throws std::runtime_error that
   /// names the number when it is no M code, belongs to the control, or is there twice.

@@ -103,6 +103,7 @@ bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call)
 Fault read_call(const Block& block, Call& call) {
   const bool fanuc = call.kind == CallKind::macro || call.kind == CallKind::modal_macro ||
                      call.kind == CallKind::block_macro;
+  if (block.two_tools) return {AlarmNumber::letter_twice, block.offset(second_tool_word)};
   // In a Fanuc call M is an argument; otherwise the code of the call is the only one.
   const std::size_t codes = std::size_t{block.g_count} + block.m_count;
   if (block.g_count > 1 || codes > (fanuc ? 2u : 1u)) return {AlarmNumber::call_not_alone, call.offset};

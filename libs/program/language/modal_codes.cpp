@@ -131,9 +131,28 @@ Fault ModalCodes::spindle_word() {
 Fault ModalCodes::tool_word() {
   // In a G10 without L the tool is the one the entry is for; nothing is selected.
   if (!words_.has('T') || (words_.g().is(Group::one_block, 100) && !words_.has('L'))) return {};
+  if (!words_.two_tools()) return select_tool('T');
+  switch (environment_.two_tool_words()) {
+    case TwoToolWords::refused:
+      break;
+    case TwoToolWords::last:
+      words_.use('T');
+      return select_tool(second_tool_word);
+    case TwoToolWords::change_and_ready:
+      return select_tool('T');
+  }
+  return {AlarmNumber::two_tools, words_.offset(second_tool_word)};
+}
+
+Fault ModalCodes::ready_tool() {
+  if (!words_.two_tools() || words_.used(second_tool_word)) return {};
+  return select_tool(second_tool_word);
+}
+
+Fault ModalCodes::select_tool(char word) {
   std::uint32_t tool = 0;
-  if (const Fault fault = words_.whole_number('T', 0, highest_tool, tool)) return fault;
-  if (tool != 0 && !environment_.has_tool(tool)) return {AlarmNumber::tool_unknown, words_.offset('T')};
+  if (const Fault fault = words_.whole_number(word, 0, highest_tool, tool)) return fault;
+  if (tool != 0 && !environment_.has_tool(tool)) return {AlarmNumber::tool_unknown, words_.offset(word)};
   state_.modal.selected_tool = static_cast<std::uint16_t>(tool);
   output_.push(CommandKind::tool).number = tool;
   return {};
@@ -149,6 +168,11 @@ Fault ModalCodes::set_plane(std::uint16_t at, Plane plane) {
 
 Fault ModalCodes::set_distance(std::uint16_t, bool absolute) {
   state_.modal.absolute = absolute;
+  return {};
+}
+
+Fault ModalCodes::set_centres(std::uint16_t, bool absolute) {
+  state_.modal.absolute_centres = absolute;
   return {};
 }
 

@@ -17,6 +17,7 @@ class ModalCodes : private BlockHandler {
   Fault set_spindle_mode(std::uint16_t at, SpindleMode mode);
   Fault set_plane(std::uint16_t at, Plane plane);
   Fault set_distance(std::uint16_t at, bool absolute);
+  Fault set_centres(std::uint16_t at, bool absolute);
   Fault set_return_level(std::uint16_t at, bool initial);
   Fault stop_at_every_end(std::uint16_t at);  ///< G61
   Fault set_continuous_path(std::uint16_t at);
@@ -29,8 +30,12 @@ class ModalCodes : private BlockHandler {
   Fault feed_word();
   Fault spindle_word();
   Fault tool_word();
+  /// Behind M6: the second of two T words, when it is for the next change.
+  Fault ready_tool();
 
  private:
+  /// T of `word`.
+  Fault select_tool(char word);
   Fault check_spindle_speed(double speed);
   /// The block has the lead of a thread, if it has its word.
   bool takes_lead() const;

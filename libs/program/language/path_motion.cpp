@@ -230,27 +230,37 @@ Fault PathMotion::find_arc(const AxisValues& target, std::uint16_t at, Arc& arc)
 Fault PathMotion::find_circle(const AxisValues& target, std::uint16_t& at, Arc& arc) {
   const bool vector = state_.modal.tool_vector && words_.has('R');
   const PlaneAxes plane = plane_axes(arc.plane);
+  const AxisValues& start = state_.program_position;
+  const bool absolute = state_.modal.absolute_centres;
   std::array<double, 3> centre_offset{};
   bool centre = false;
+  char absent = '\0';
   for (const std::uint8_t axis : {plane.first, plane.second}) {
     const char letter = static_cast<char>('I' + axis);
-    if (!words_.has(letter) || vector) continue;
+    if (!words_.has(letter) || vector) {
+      absent = letter;
+      continue;
+    }
     at = words_.offset(letter);
-    centre_offset[axis] = words_.length(letter);
+    centre_offset[axis] = words_.length(letter) - (absolute ? start[axis] : 0);
     centre = true;
   }
+  if (absolute && centre && absent != '\0') return {AlarmNumber::missing_word, at, needs(absent)};
   std::uint32_t turns = 1;
   if (words_.has('L')) {
     if (const Fault fault = words_.whole_number('L', 1, most_turns, turns)) return fault;
   }
-  const AxisValues& start = state_.program_position;
   if (words_.has('R')) {
     at = words_.offset('R');
     const double radius = words_.length('R');
     if (centre) return {AlarmNumber::arc_centre_and_radius, at};
     return {arc_from_radius(start, target, radius, turns, radius_deviation_, arc), at};
   }
-  if (!centre) return {AlarmNumber::arc_centre_missing, at};
+  if (!centre) {
+    const bool modal = !words_.g().has(Group::motion);
+    return {AlarmNumber::arc_centre_missing, at,
+            modal ? "R, I, J and K hold for their block alone" : nullptr};
+  }
   return {arc_from_centre(start, target, centre_offset, turns, radius_deviation_, arc), at};
 }
 

@@ -110,6 +110,8 @@ Fault Positioning::return_from_reference(std::uint16_t at) {
 }
 
 Fault Positioning::move_in_machine_coordinates(std::uint16_t at) {
+  // It holds for its block alone: without an axis there is nothing to move.
+  if ((words_.letters() & axis_bits) == 0) return {};
   if (state_.modal.transformation == Transformation::rtcp) return {AlarmNumber::machine_coordinates_rtcp, at};
   if (state_.modal.motion > 1) return {AlarmNumber::machine_coordinates_motion, at};
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;

@@ -46,6 +46,9 @@ struct BlockState {
   double thread_lead = 0;         ///< F of G33 and G34, mm per revolution; 0 = none yet
   SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
   std::uint8_t settings_place = 0;
+  bool length_given = false;       ///< the program has had an H for a tool length
+  std::uint16_t length_entry = 0;  ///< the last one
+  std::uint16_t length_tool = 0;   ///< the tool in the spindle then
 };
 
 class ProgramState : public BlockState {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/tool_codes.hpp"
 
+#include <cstdio>
+
 namespace trunnion::language {
 
 Fault ToolCodes::set_length(std::uint16_t at, LengthUse use) {
@@ -29,12 +31,13 @@ Fault ToolCodes::choose_length(std::uint16_t at, const Length& use) {
   ModalState& modal = state_.modal;
   std::uint32_t h = 0;
   double length = 0;
-  if (!use.off) {
-    if (!words_.has('H')) return {AlarmNumber::missing_word, at, needs('H')};
-    if (const Fault fault = words_.whole_number('H', 0, highest_tool, h)) return fault;
+  if (use.off) {
+    if (words_.has('H') && words_.value('H') == 0) words_.use('H');
+  } else {
+    if (const Fault fault = length_entry(at, h)) return fault;
     if (h != 0) {
       const auto tool = context_.tables.tool(static_cast<std::uint16_t>(h));
-      if (!tool) return {AlarmNumber::tool_length_unknown, words_.offset('H')};
+      if (!tool) return {AlarmNumber::tool_length_unknown, words_.has('H') ? words_.offset('H') : at};
       length = tool->length + tool->length_wear;
       if (use.subtract) length = -length;
     }
@@ -55,6 +58,25 @@ Fault ToolCodes::choose_length(std::uint16_t at, const Length& use) {
   state_.locate(position);
   output_.push(CommandKind::transformation);
   return {};
+}
+
+// Without H the last one holds, as on Fanuc, while it can only be meant for the tool in the spindle.
+Fault ToolCodes::length_entry(std::uint16_t at, std::uint32_t& h) {
+  if (words_.has('H')) {
+    if (const Fault fault = words_.whole_number('H', 0, highest_tool, h)) return fault;
+    state_.length_given = true;
+    state_.length_entry = static_cast<std::uint16_t>(h);
+    state_.length_tool = state_.modal.tool;
+    return {};
+  }
+  if (!state_.length_given) return {AlarmNumber::missing_word, at, needs('H')};
+  h = state_.length_entry;
+  if (state_.length_tool == state_.modal.tool) return {};
+  FaultDetail& detail = context_.detail;
+  detail.number = AlarmNumber::length_of_another_tool;
+  std::snprintf(detail.text.data(), detail.text.size(), "H%u was for T%u, T%u is in the spindle",
+                unsigned{state_.length_entry}, unsigned{state_.length_tool}, unsigned{state_.modal.tool});
+  return {detail.number, at};
 }
 
 Fault ToolCodes::set_cutter_side(std::uint16_t at, CutterSide side) {

@@ -35,6 +35,8 @@ class ToolCodes : private BlockHandler {
     bool off = false;
   };
   Fault choose_length(std::uint16_t at, const Length& length);
+  /// H of the block or the one that holds.
+  Fault length_entry(std::uint16_t at, std::uint32_t& h);
   Fault compensate(std::uint16_t at, bool named);
   void read_wall(const AxisValues& here);
 };

@@ -34,6 +34,7 @@ std::vector<std::string> modal_codes(const language::ModalState& m) {
   if (m.scaled) codes.emplace_back("G51");
   if (m.mirrored) codes.emplace_back("G51.1");
   if (m.polar) codes.emplace_back("G16");
+  if (m.absolute_centres) codes.emplace_back("G90.1");
   if (m.smoothing != 0) codes.push_back("G5.1 Q" + std::to_string(m.smoothing));
   return codes;
 }

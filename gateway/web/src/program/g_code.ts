@@ -30,13 +30,13 @@ export function codeName(text: string): string {
   return `${letter.toUpperCase()}${Number(whole)}${fraction}`;
 }
 
-/** What a code does; undefined when the control does not have it. Other M codes up to M999 are the PLC's: "". */
+/** What a code does; undefined when the control does not have it. Other M codes up to M9999 are the PLC's: "". */
 export function aboutCode(text: string): string | undefined {
   const name = codeName(text);
   const known = gCodes[name] ?? mCodes[name];
   if (known !== undefined) return known;
   const number = Number(name.slice(1));
-  if (name.startsWith("M")) return Number.isInteger(number) && number <= 999 ? "" : undefined;
+  if (name.startsWith("M")) return Number.isInteger(number) && number <= 9999 ? "" : undefined;
   return callCodes.find(([first, last]) => number >= Number(first.slice(1)) && number <= Number(last.slice(1)))?.[2];
 }
 
