@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "text/utf8.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdint>
 #include <cstring>
@@ -43,6 +45,33 @@ std::size_t sequence_length(std::string_view text, std::size_t i) {
   return 0;
 }
 
+/// The characters 80 to 9f of Windows-1252 in Unicode; 0: it has none.
+constexpr std::array<std::uint16_t, 32> windows_1252 = {
+    0x20ac, 0,      0x201a, 0x0192, 0x201e, 0x2026, 0x2020, 0x2021, 0x02c6, 0x2030, 0x0160,
+    0x2039, 0x0152, 0,      0x017d, 0,      0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
+    0x2013, 0x2014, 0x02dc, 0x2122, 0x0161, 0x203a, 0x0153, 0,      0x017e, 0x0178};
+
+struct Character {
+  std::array<char, 4> bytes{'?'};
+  std::size_t size = 1;
+};
+
+/// Of a byte from 0x80.
+Character old_character(unsigned char byte) {
+  Character character;
+  const unsigned code = byte >= 0xa0 ? byte : windows_1252[byte - 0x80u];
+  const auto low = static_cast<char>(0x80u | (code & 0x3fu));
+  if (code >= 0x800) {
+    character.bytes = {static_cast<char>(0xe0u | (code >> 12)),
+                       static_cast<char>(0x80u | ((code >> 6) & 0x3fu)), low};
+    character.size = 3;
+  } else if (code != 0) {
+    character.bytes = {static_cast<char>(0xc0u | (code >> 6)), low};
+    character.size = 2;
+  }
+  return character;
+}
+
 }  // namespace
 
 std::size_t valid_utf8_prefix(std::string_view text) {
@@ -53,6 +82,35 @@ std::size_t valid_utf8_prefix(std::string_view text) {
     i = ascii_prefix(text, i + length);
   }
   return i;
+}
+
+std::size_t character_count(std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < text.size(); ++count) {
+    const bool ascii = static_cast<unsigned char>(text[i]) < 0x80;
+    i += ascii ? 1 : std::max<std::size_t>(sequence_length(text, i), 1);
+  }
+  return count;
+}
+
+std::size_t copy_readable(std::string_view text, std::span<char> out) {
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const std::size_t length = first < 0x80 ? 1 : sequence_length(text, i);
+    Character shown;
+    if (length == 0) {
+      shown = old_character(first);
+    } else if (first >= 0x20 && first != 0x7f) {
+      std::copy_n(text.begin() + static_cast<std::ptrdiff_t>(i), length, shown.bytes.begin());
+      shown.size = length;
+    }
+    if (size + shown.size > out.size()) break;
+    std::copy_n(shown.bytes.begin(), shown.size, out.begin() + static_cast<std::ptrdiff_t>(size));
+    size += shown.size;
+    i += std::max<std::size_t>(length, 1);
+  }
+  return size;
 }
 
 std::string shortened(std::string text, std::size_t most) {

@@ -9,17 +9,11 @@
 namespace trunnion::language {
 namespace {
 
+constexpr std::size_t longest_comment = 96;  // of #3000, bytes
+
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
 bool is_number_character(char c) { return (c >= '0' && c <= '9') || c == '.' || c == '+' || c == '-'; }
-
-/// As much of `text` as a display shows, without cutting a character or showing what is no UTF-8.
-std::string_view head_of(std::string_view text) {
-  text = text.substr(0, text::valid_utf8_prefix(text));
-  std::size_t size = std::min<std::size_t>(text.size(), 96);
-  while (size != 0 && size < text.size() && is_continuation(text[size])) --size;
-  return text.substr(0, size);
-}
 
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
@@ -66,9 +60,7 @@ Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t p
   alarm.program = program;
   alarm.line = line;
   const std::size_t offset = std::min<std::size_t>(fault.offset, line_text.size());
-  const auto before = line_text.substr(0, offset);
-  const auto continuations = std::count_if(before.begin(), before.end(), is_continuation);
-  alarm.column = static_cast<std::uint32_t>(before.size() - static_cast<std::size_t>(continuations) + 1);
+  alarm.column = static_cast<std::uint32_t>(text::character_count(line_text.substr(0, offset)) + 1);
 
   char* out = alarm.text.data();
   const auto append = [&](std::string_view part) { out = std::copy(part.begin(), part.end(), out); };
@@ -76,10 +68,10 @@ Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t p
   // Bytes that are no UTF-8 or no printable character must not reach a display.
   const bool printable = fault.number != AlarmNumber::not_utf8 && fault.number != AlarmNumber::line_too_long;
   const auto at_fault = line_text.substr(offset);
-  const auto word = !printable                                   ? std::string_view{}
-                    : fault.number == AlarmNumber::program_alarm ? head_of(at_fault)
-                                                                 : word_at(at_fault);
-  if (!word.empty()) {
+  if (fault.number == AlarmNumber::program_alarm) {
+    append(": ");
+    out += text::copy_readable(at_fault, {out, longest_comment});
+  } else if (const auto word = printable ? word_at(at_fault) : std::string_view{}; !word.empty()) {
     append(": ");
     for (const char c : word) *out++ = static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   }

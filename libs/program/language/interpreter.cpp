@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/interpreter.hpp"
 
-#include <algorithm>
-#include <span>
 #include <string_view>
 
 #include "language/iso_dialect.hpp"
@@ -20,27 +18,6 @@ constexpr int lines_per_call = 1000;
 void return_at_end(Block& block) {
   for (std::size_t i = 0; i < block.m_count; ++i)
     if (block.m[i].value == 2) block.m[i].value = 99;
-}
-
-/// Copies as much of `text` as fits into `out`, whole characters; what a display cannot show is ?. Its size.
-std::size_t copy_shown(std::string_view text, std::span<char> out) {
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  std::size_t size = 0;
-  while (!text.empty()) {
-    constexpr std::size_t longest_character = 4;
-    const std::size_t valid = text::valid_utf8_prefix(text.substr(0, longest_character));
-    std::size_t bytes = 1;
-    while (bytes < valid && (static_cast<unsigned char>(text[bytes]) & 0xc0u) == 0x80u) ++bytes;
-    if (size + bytes > out.size()) break;
-    const auto first = static_cast<unsigned char>(text[0]);
-    if (valid == 0 || first < 0x20 || first == 0x7f)
-      out[size] = '?';
-    else
-      std::copy_n(text.begin(), bytes, out.begin() + static_cast<std::ptrdiff_t>(size));
-    size += bytes;
-    text.remove_prefix(bytes);
-  }
-  return size;
 }
 
 }  // namespace
@@ -240,7 +217,10 @@ Fault Interpreter::carry_out_requests() { return control_.carry_out(levels_[dept
 Interpreter::State Interpreter::execute_words(std::string_view line) {
   if (const Fault fault = carry_out_requests()) return fail(fault, line);
   if (rules_.text_ends_subprograms && depth_ != 0 && !block_.ends_program) return_at_end(block_);
-  if (block_.message) message_size_ = copy_shown(line.substr(block_.message_at), message_);
+  if (block_.message) {
+    const std::string_view shown = line.substr(0, line.find_last_not_of(" \t") + 1);
+    message_size_ = text::copy_readable(shown.substr(block_.message_at), message_);
+  }
   Call call;
   if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);
   const auto* const modal = modal_calls_.active();

@@ -11,7 +11,6 @@ namespace trunnion::program {
 namespace {
 
 constexpr std::size_t piece = 65536;
-constexpr std::size_t head_length = 16;
 
 }  // namespace
 
@@ -24,19 +23,8 @@ void TextScan::add(std::span<const std::uint8_t> bytes) {
     if (byte == '\r' || (byte == '\n' && last_ != '\r')) ++ends_;
     last_ = byte;
   }
-  for (std::size_t i = 0; i < bytes.size() && head_.size() < head_length; ++i) {
-    const char c = static_cast<char>(bytes[i]);
-    const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
-    // A line that contains only % starts the tape: the number is in the next one.
-    if (blank && (head_.empty() || head_ == "%")) {
-      if (c == '\n' || c == '\r') head_.clear();
-      continue;
-    }
-    head_ += c;
-  }
+  head_.add(bytes);
 }
-
-std::optional<machine::ProgramNumber> TextScan::number() const { return machine::number_in_head(head_); }
 
 bool valid_name(const std::string& name) {
   if (name.empty() || name.size() > 64 || name[0] == '.') return false;

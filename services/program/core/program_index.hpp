@@ -8,6 +8,7 @@
 
 #include "contracts/types.hpp"
 #include "files.hpp"
+#include "head_scan.hpp"
 #include "machine/program_number.hpp"
 
 namespace trunnion::program {
@@ -20,14 +21,14 @@ class TextScan {
   std::uint32_t crc32() const { return crc_; }
   /// Lines, which end with CR LF, LF or CR; a last one without an end included.
   std::uint32_t lines() const { return ends_ + (last_ != '\n' && last_ != '\r' ? 1 : 0); }
-  /// The number after % or O at the head of the first line that is not empty.
-  std::optional<machine::ProgramNumber> number() const;
+  /// Of the head.
+  std::optional<machine::ProgramNumber> number() const { return head_.number(); }
 
  private:
   std::uint64_t size_ = 0;
   std::uint32_t crc_ = 0, ends_ = 0;
   std::uint8_t last_ = '\n';
-  std::string head_;  ///< first bytes without leading blanks
+  HeadScan head_;
 };
 
 struct IndexedProgram {
