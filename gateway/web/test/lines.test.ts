@@ -36,6 +36,11 @@ test("characters of several bytes stay whole", () => {
   expect(text("(Fräsen)\n(刀具)").line(2)).toBe("(刀具)");
 });
 
+test("a line that is no UTF-8 is shown as Windows-1252, in which older programs are written", () => {
+  const program = new ProgramText(Uint8Array.from([0x28, 0x46, 0xdc, 0x52, 0x29, 0x0a, 0x28, 0xc3, 0x9c, 0x29]));
+  expect([program.line(1), program.line(2)]).toEqual(["(FÜR)", "(Ü)"]);
+});
+
 test("a million lines are indexed and the last one is found", () => {
   const line = "G1 X10.000 Y20.000\n";
   const program = text(line.repeat(1_000_000));

@@ -13,6 +13,10 @@ test("a line is divided into its words", () => {
   ]);
   expect(kinds("%")).toEqual(["%:head"]);
   expect(kinds("O0979")).toEqual(["O0979:head"]);
+  expect(kinds(":1000 (plate)")).toEqual([":1000:head", "(plate):comment"]);
+  expect(kinds("%O1000 G0")).toEqual(["%O1000:head", "G0:code"]);
+  expect(kinds("<PLATE-2>")).toEqual(["<PLATE-2>:head"]);
+  expect(kinds("% PLATE 2")).toEqual(["%:head", "PLATE 2:comment"]);
   expect(kinds("/2 M8")).toEqual(["/2:skip", "M8:code"]);
   expect(kinds("G0X1Y#101Z[#2+1]")).toEqual(["G0:code", "X1:axis", "Y:axis", "#101:variable", "Z:axis", "[:operator", "#2:variable", "+:operator", "]:operator"]);
   expect(kinds("IF [#1 EQ 2] GOTO 10")[0]).toBe("IF:keyword");
@@ -20,8 +24,8 @@ test("a line is divided into its words", () => {
 });
 
 test("codes that the control does not have are marked", () => {
-  expect(kinds("G999 M1000")).toEqual(["G999:unknown", "M1000:unknown"]);
-  expect(kinds("G1500 M123")).toEqual(["G1500:code", "M123:code"]);
+  expect(kinds("G999 M10000")).toEqual(["G999:unknown", "M10000:unknown"]);
+  expect(kinds("G1500 M123 M1000")).toEqual(["G1500:code", "M123:code", "M1000:code"]);
   expect(codeName("g01")).toBe("G1");
   expect(codeName("G54.10")).toBe("G54.1");
   expect(codeName("M06")).toBe("M6");
@@ -57,6 +61,13 @@ test("the outline names programs, tools, offsets, calls, labels and comments", (
     [6, "label", "N20"],
     [7, "call", "M98 P7"],
     [8, "offset", "G54.1 P4"],
+  ]);
+});
+
+test("programs that begin with a colon or a name are in the outline", () => {
+  expect(outline([":1000", "<PLATE-2> (x)"]).map(({ line, kind, text }) => [line, kind, text])).toEqual([
+    [1, "program", ":1000"],
+    [2, "program", "<PLATE-2>  x"],
   ]);
 });
 

@@ -225,6 +225,7 @@ Interpreter::State Interpreter::execute_words(std::string_view line) {
   if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);
   const auto* const modal = modal_calls_.active();
   if (modal != nullptr && modal->call.kind == CallKind::block_macro) {
+    if (block_.two_tools) return fail({AlarmNumber::letter_twice, block_.offset(second_tool_word)}, line);
     read_arguments(block_, CallKind::block_macro, executor_.modal().absolute, arguments_);
     return this->call(modal->call, line);
   }

@@ -44,10 +44,15 @@ export function aboutCode(text: string): string | undefined {
 export function tokens(line: string): Token[] {
   const found: Token[] = [];
   let at = 0;
-  const head = /^\s*(?:%\d*|[O]\d+)/i.exec(line) ?? /^\s*\/[1-9]?/.exec(line);
+  const head = /^\s*(?:%(?:\s*[O:]?\s*\d+)?|[O:]\s*\d+|O?<[^>]*>)/i.exec(line) ?? /^\s*\/[1-9]?/.exec(line);
   if (head) {
     found.push({ from: head[0].search(/\S/), to: head[0].length, kind: head[0].includes("/") ? "skip" : "head" });
     at = head[0].length;
+    // The title of the tape.
+    if (/^\s*%$/.test(head[0]) && line.slice(at).trim() !== "") {
+      found.push({ from: at + line.slice(at).search(/\S/), to: line.length, kind: "comment" });
+      return found;
+    }
   }
   scan: while (at < line.length) {
     for (const [pattern, kind] of patterns) {

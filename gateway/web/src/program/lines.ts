@@ -21,7 +21,8 @@ export function lineBreak(text: string): string {
 export class ProgramText {
   private readonly starts: Uint32Array;
   readonly count: number;
-  private readonly decoder = new TextDecoder();
+  private readonly decoder = new TextDecoder("utf-8", { fatal: true });
+  private readonly oldDecoder = new TextDecoder("windows-1252");
 
   constructor(private readonly bytes: Uint8Array) {
     let lines = 0;
@@ -35,7 +36,12 @@ export class ProgramText {
   line(number: number): string {
     if (number < 1 || number > this.count) return "";
     const start = this.starts[number - 1]!;
-    return this.decoder.decode(this.bytes.subarray(start, lineEnd(this.bytes, start)[0]));
+    const line = this.bytes.subarray(start, lineEnd(this.bytes, start)[0]);
+    try {
+      return this.decoder.decode(line);
+    } catch {
+      return this.oldDecoder.decode(line); // comments of older programs
+    }
   }
 }
 

@@ -21,7 +21,7 @@ export function outline(lines: Iterable<string>): OutlineEntry[] {
   let [number, labels] = [0, 0];
   for (const line of lines) {
     ++number;
-    if (!/[(O%NTGM;]/i.test(line)) continue;
+    if (!/[(O%:<NTGM;]/i.test(line)) continue;
     const parts = tokens(line).map(({ from, to, kind }) => ({ kind, text: line.slice(from, to) }));
     const codes = parts.filter(({ kind }) => kind === "code").map(({ text }) => codeName(text));
     const comment = parts.find(({ kind }) => kind === "comment")?.text.replace(/^[(;]\s*|\s*\)$/g, "") ?? "";

@@ -30,6 +30,36 @@ TEST(Shortened, LeavesWhatFitsAndMarksWhatDoesNot) {
   EXPECT_EQ(shortened("123456789", 4), " ...");
 }
 
+std::string readable(std::string_view text, std::size_t most = 64) {
+  std::string out(most, '\0');
+  out.resize(copy_readable(text, out));
+  return out;
+}
+
+// In Windows-1252 80 is the euro sign (U+20AC), 81 is not there, 9f is U+0178 and e9 U+00E9.
+TEST(CopyReadable, TakesWhatIsNoUtf8ForWindows1252) {
+  EXPECT_EQ(readable("plain"), "plain");
+  EXPECT_EQ(readable("\xc3\xa9"), "\xc3\xa9") << "UTF-8 stays";
+  EXPECT_EQ(readable("\xe9"), "\xc3\xa9");
+  EXPECT_EQ(readable("M\x80 \x9f\x81."), "M\xe2\x82\xac \xc5\xb8?.");
+  EXPECT_EQ(readable("F\xdcR"), "F\xc3\x9cR") << "dc begins two bytes of UTF-8, which R does not continue";
+  EXPECT_EQ(readable(std::string_view("a\tb\0c\x7f", 6)), "a?b?c?");
+}
+
+TEST(CopyReadable, WritesWholeCharactersAsFarAsTheyFit) {
+  EXPECT_EQ(readable("12\x80", 4), "12");
+  EXPECT_EQ(readable("12\x80", 5), "12\xe2\x82\xac");
+  EXPECT_EQ(readable("12\xc3\xa9", 3), "12");
+  EXPECT_EQ(readable("abc", 0), "");
+}
+
+TEST(CharacterCount, CountsABrokenByteAsOne) {
+  EXPECT_EQ(character_count(""), 0u);
+  EXPECT_EQ(character_count("a\xc3\xa9z"), 3u);
+  EXPECT_EQ(character_count("a\xb0z"), 3u);
+  EXPECT_EQ(character_count("\xe5\x8f"), 2u);
+}
+
 // With 10 bytes six are left before the mark: the three bytes of the euro sign are the fifth to the seventh.
 TEST(Shortened, CutsNoCharacterInTwo) {
   EXPECT_EQ(shortened("1234\xe2\x82\xac"

@@ -101,6 +101,33 @@ TEST(IsoDialect, SkippedBlockIsNotRead) {
   EXPECT_FALSE(value.given);
 }
 
+TEST(IsoDialect, SkipInTheMiddleLeavesOutTheRestOfTheBlock) {
+  Reading read;
+  ASSERT_FALSE(read("G0 X1 /2 Y1 )", 0b10));
+  EXPECT_FALSE(read.block.skipped);
+  EXPECT_EQ(read.block.letters, Block::bit('X'));
+  ASSERT_FALSE(read("G0 X1 /2 Y1", 0b1));
+  EXPECT_TRUE(read.block.has('Y'));
+  for (const char* line : {"/1/3 G0 X1", "/1 /3 G0 X1", "(c) /3 G0 X1", "/1 N5 /3 G0 X1", "N5 (c) /1/3 X1"}) {
+    ASSERT_FALSE(read(line, 0b100)) << line;
+    EXPECT_TRUE(read.block.skipped) << line;
+    ASSERT_FALSE(read(line, 0b10)) << line;
+    EXPECT_FALSE(read.block.skipped) << line;
+    EXPECT_TRUE(read.block.has('X')) << line;
+  }
+}
+
+TEST(IsoDialect, BlanksInsideNumbersMeanNothing) {
+  Reading read;
+  ASSERT_FALSE(read("G 43 . 4 X 1 . 5 Y - .5 Z1. 25 A1 .5\tB\t-\t2 M 3"));
+  EXPECT_EQ(read.block.g[0].value, 43.4);
+  EXPECT_EQ(read.block.value('X'), 1.5);
+  EXPECT_EQ(read.block.value('Y'), -0.5);
+  EXPECT_EQ(read.block.value('Z'), 1.25);
+  EXPECT_EQ(read.block.value('A'), 1.5);
+  EXPECT_EQ(read.block.value('B'), -2);
+}
+
 TEST(IsoDialect, EightMCodes) {
   Reading read;
   ASSERT_FALSE(read("M3 M8 M10 M11 M12 M13 M14 M15"));
@@ -148,6 +175,15 @@ TEST(IsoDialect, Heads) {
   EXPECT_EQ(head("N1 O2"), std::nullopt);
   EXPECT_EQ(head(""), std::nullopt);
   EXPECT_EQ(head("* O12"), std::nullopt);
+  EXPECT_EQ(head(":1000 (x)"), 1000u);
+  EXPECT_EQ(head("%O1000"), 1000u);
+  EXPECT_EQ(head("% : 1000"), 1000u);
+  EXPECT_EQ(head("(x) O12"), 12u);
+  EXPECT_EQ(head("/1/2 O12"), 12u);
+  EXPECT_EQ(head("O<NAME>"), 0u);
+  EXPECT_EQ(head("<NAME> (x)"), 0u);
+  EXPECT_EQ(head("% PART 12"), std::nullopt);
+  EXPECT_EQ(head("OPART"), std::nullopt);
   Reading read;
   ASSERT_FALSE(read("% "));
   EXPECT_EQ(read.block.head, Head::tape_mark);
@@ -174,6 +210,15 @@ TEST(IsoDialect, OutlineSeesWhatABlockWillBe) {
                                                {"N5 (b) /2 DO3", begin_do, 3u},
                                                {"IF[1]THEN IF[0]GOTO 7", none, 0u},
                                                {"D1 E2", none, 0u},
+                                               {"WH[#1LT2]DO1", begin_do, 1u},
+                                               {"wh #1 LT 2", begin_while, 0u},
+                                               {"EN12", end_do, 12u},
+                                               {"IF[#1EQ2]TH#1=2", none, 0u},
+                                               {"IF[#1EQ2] TH (all)", begin_if, 0u},
+                                               {"/1/3 ENDW", end_while, 0u},
+                                               {"(a) /2 ENDIF", end_if, 0u},
+                                               {"/1 (a) N5 /3 DO4", begin_do, 4u},
+                                               {"\x0c\x11 N5 \x13 ELSE \x04", else_, 0u},
                                                {"G1 X1", none, 0u}}) {
     const Outline outline = dialect.outline(line, 0);
     EXPECT_EQ(outline.statement, statement) << line;
@@ -191,6 +236,10 @@ TEST(IsoDialect, OutlineSeesWhatABlockWillBe) {
   EXPECT_EQ(dialect.outline("N10.5 G1", 0).sequence_number, std::nullopt);
   EXPECT_EQ(dialect.outline("/N10", 1).sequence_number, std::nullopt);
   EXPECT_EQ(dialect.outline("(a) N10", 1).sequence_number, 10u);
+  EXPECT_EQ(dialect.outline("/1/3 N10", 0b10).sequence_number, 10u);
+  EXPECT_EQ(dialect.outline("/1/3 N10", 0b100).sequence_number, std::nullopt);
+  EXPECT_EQ(dialect.outline("(a) /3 N10", 0b100).sequence_number, std::nullopt);
+  EXPECT_EQ(dialect.outline("\x0cN10", 0).sequence_number, 10u);
   EXPECT_EQ(dialect.outline("(a N10", 1).sequence_number, std::nullopt);
 }
 

@@ -43,6 +43,7 @@ struct TestMachine : Environment {
   std::array<canonical::RotaryWay, axis_count> ways{};
   std::optional<MFunctions> functions;  // nothing: every M code may stand
   DwellPoint point = DwellPoint::refused;
+  TwoToolWords two_tools = TwoToolWords::refused;
   ProgramDialect dialect = ProgramDialect::iso;
   std::map<std::uint32_t, double> external;  // parameters of the NUM dialect
   AngleMCodes angle_codes{19, -1, -1, -1};
@@ -78,6 +79,7 @@ struct TestMachine : Environment {
   CycleSettings cycle_settings() const override { return cycles; }
   const MFunctions* m_functions() const override { return functions ? &*functions : nullptr; }
   DwellPoint dwell_point() const override { return point; }
+  TwoToolWords two_tool_words() const override { return two_tools; }
   ProgramDialect program_dialect() const override { return dialect; }
   std::optional<double> external_parameter(std::uint32_t number) const override {
     const auto found = external.find(number);
