@@ -7,8 +7,36 @@
 namespace trunnion::language {
 namespace {
 
-constexpr std::array<std::string_view, 10> instructions = {"IF",  "GOTO",  "WHILE", "WH",   "DO",
-                                                           "END", "ENDIF", "ENDW",  "ELSE", "ELSEIF"};
+struct Instruction {
+  std::string_view word;
+  bool labelled = false;  // a number is behind it
+  bool alone = false;     // and no further letter
+};
+constexpr std::array instructions = {
+    Instruction{"IF"},
+    Instruction{"ELSE"},
+    Instruction{"ENDIF"},
+    Instruction{"GOTO"},
+    Instruction{"WHILE"},
+    Instruction{"ENDW"},
+    Instruction{"DO", true},
+    Instruction{"END", true},
+    Instruction{"CYCLE", true},
+    Instruction{"WH", false, true},
+    Instruction{"EN", true, true},
+};
+
+bool begins_instruction(const Scanner& scanner) {
+  for (const Instruction& instruction : instructions) {
+    if (!scanner.looking_at(instruction.word)) continue;
+    Scanner rest = scanner;
+    rest.advance(instruction.word.size());
+    if (instruction.alone && rest.letters() != 0) continue;
+    rest.skip_blanks();
+    if (!instruction.labelled || is_digit(rest.peek(0))) return true;
+  }
+  return false;
+}
 
 bool begins_number(Scanner scanner) {
   scanner.skip_blanks();
@@ -104,12 +132,7 @@ bool begins_block(Scanner scanner) {
   const char c = scanner.peek(0);
   if (c == '#' || c == '/') return true;
   if (letter(c) == '\0') return false;
-  const std::size_t letters = scanner.letters();
-  if (letters != 1) {
-    for (const std::string_view word : instructions)
-      if (letters == word.size() && scanner.looking_at(word)) return true;
-    return scanner.looking_at("CYCLE") && is_digit(scanner.peek(5));
-  }
+  if (letter(scanner.peek(1)) != '\0') return begins_instruction(scanner);
   scanner.advance();
   return begins_number(scanner);
 }

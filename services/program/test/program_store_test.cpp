@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
+#include <span>
+#include <string>
 
 #include "machine/alarm_constants.hpp"
 #include "memory_files.hpp"
@@ -37,6 +40,35 @@ TEST(TextScan, FindsTheNumberInTheFirstLineBehindTheTapesBeginning) {
     scan.add(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
     EXPECT_EQ(scan.number(), (machine::ProgramNumber{100, 0})) << text;
   }
+}
+
+std::optional<machine::ProgramNumber> number_in(const std::string& text) {
+  TextScan whole, pieces;
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  whole.add(bytes);
+  for (std::size_t i = 0; i < bytes.size(); ++i) pieces.add(bytes.subspan(i, 1));
+  EXPECT_EQ(whole.number(), pieces.number()) << text;
+  return whole.number();
+}
+
+TEST(TextScan, FindsTheNumberOfHeadsOfAnyForm) {
+  const std::string nul(5, '\0');
+  for (const std::string& text :
+       {std::string(":100 (PLATE)\n"), std::string("%O100(PLATE)\n"), std::string("% : 100"),
+        std::string("o 0100"), std::string("%100"), std::string("% TITLE\r\nO100\r\n"),
+        std::string("(a)\n* b\n; c\n\n (d) O100"), std::string("\xef\xbb\xbf%\nO100"), nul + "%\nO100\n",
+        nul + "O100\n", std::string("TEXT 1\r%\rO100\r"), std::string("TEXT\n%100\n"),
+        "(" + std::string(5000, 'x') + ")\nO100\nX1\n"})
+    EXPECT_EQ(number_in(text), (machine::ProgramNumber{100, 0})) << text;
+  EXPECT_EQ(number_in("%100.9(NUM)\n"), (machine::ProgramNumber{100, 9}));
+}
+
+TEST(TextScan, ATextWithoutAHeadInFrontOfItsBlocksHasNoNumber) {
+  for (const char* text : {"", "%", "G0 X1\nO100\n", "#1=2\nO100\n", "<NAME>\nO100\n", "O<NAME>\nO100\n",
+                           "TEXT\nO100\n", "O\nG0 X1\nO100\n", "N5 O100\n", "O1234567890\n"})
+    EXPECT_EQ(number_in(text), std::nullopt) << text;
+  EXPECT_EQ(number_in(std::string(20000, '\n') + "O100\n"), std::nullopt)
+      << "a head is in the first 16384 bytes";
 }
 
 TEST(ProgramStore, AnUploadBecomesAProgramWithRevisionSizeChecksumAndLines) {

@@ -36,11 +36,22 @@ void check_behind(const Outline& outline, const Block& block, const Fault& fault
   require(outline.behind.number == fault.number && outline.behind.offset == fault.offset);
 }
 
+/// What can be read as a block is never text in front of a program.
+void check_leader(const Dialect& dialect, std::string_view line, const Block& block, const Fault& fault) {
+  const Leader leader = dialect.leader(line);
+  if (leader.mark != Leader::no_mark)
+    require(leader.passes && leader.mark < line.size() && line[leader.mark] == '%');
+  const bool means = block.has_more() || block.statement != Statement::none || block.head == Head::program;
+  if (!fault && !block.skipped && means && (leader.mark == Leader::no_mark || block.head == Head::none))
+    require(!leader.passes);
+}
+
 void check(const Dialect& dialect, std::string_view line, SkipLevels skip, Variables& variables,
            Block& block) {
   const Outline outline = dialect.outline(line, skip);
   const Fault fault = dialect.read_block(line, skip, variables, block);
   check_behind(outline, block, fault);
+  check_leader(dialect, line, block, fault);
   if (fault) {
     require(fault.offset <= line.size());
     const Alarm alarm = make_alarm(fault, line, 0, 1);

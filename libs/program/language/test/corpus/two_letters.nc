@@ -1,0 +1,11 @@
+ wh[#1lt3]do1
+#1=#1+1
+en1
+IF[#1EQ3]TH#2=5
+IF[0]TH
+X1
+ELSEIF[1]TH
+X2
+ENDIF
+GO 1
+N5 EN2
