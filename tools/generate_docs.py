@@ -205,9 +205,10 @@ def macros():
             "| `WHILE condition` .. `ENDW` | a loop |",
             "| `WHILE condition DO n` .. `END n`, `DO n` .. `END n` | a loop with a number; without `WHILE` until a jump leaves it |",
             "| `GOTO n` | to the block with that N: searched forward, then from the start of the program |", "",
-            "`IF`, `WHILE` and `DO` nest 16 deep in a program. A jump may leave them but not enter one.", "",
+            "`IF`, `WHILE` and `DO` nest 16 deep in a program. A jump may leave them but not enter one. `WH`, `EN` and `TH` are `WHILE`, `END` and `THEN`. "
+            "`GO` is alarm 1011: with the letter O, a G0 that is written wrong would be a jump.", "",
             "## Calls", "",
-            "`M98 P_ L_` calls a subprogram, which shares the local variables of its caller. Without L, and when no program has that number, the "
+            "`M98 P_ L_` calls a subprogram, which shares the local variables of its caller; L0 calls nothing, as in LinuxCNC. Without L, and when no program has that number, the "
             "digits before the last four count the calls, as in Fanuc's old form: `M98 P60020` calls O0020 six times. `G65 P_ L_` and `G66 P_ L_` "
             "call a macro. `G1000` .. `G1999` and the M codes of parameters 010170 to 010177 call a cycle of `USERDEF.CYC`. Both have local variables "
             "of their own, which are set to the arguments at the start of each repetition. `M99` returns, `M99 P_` to the block of the caller "
