@@ -128,6 +128,9 @@ Leader IsoDialect::leader(std::string_view line) const {
   // Text with NUL in it is one of two bytes a character: a program that cannot be read, and no leader.
   const std::size_t printed = line.find_first_not_of('\0');
   if (printed != std::string_view::npos && line.find('\0', printed) != std::string_view::npos) return leader;
+  // Files of Okuma controls begin with $NAME.MIN%.
+  const std::size_t last = line.find_last_not_of(" \t");
+  if (line.starts_with('$') && line[last] == '%') return {true, last};
   for (Scanner scanner(line); !scanner.at_end();) {
     const char c = scanner.peek();
     if (c == '%') leader.mark = scanner.offset();

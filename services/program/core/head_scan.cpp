@@ -54,6 +54,8 @@ HeadLine read_line(std::string_view text) {
   HeadLine line;
   text = without_comments(text);
   if (text.empty() || text[0] == ';' || text[0] == '*') return line;
+  // Files of Okuma controls begin with $NAME.MIN%.
+  if (text[0] == '$' && text[text.find_last_not_of(" \t")] == '%') text = "%";
   line.percent = text[0] == '%';
   auto digits = text;
   if (line.percent) digits = without_blanks(digits.substr(1));

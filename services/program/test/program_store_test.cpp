@@ -57,8 +57,8 @@ TEST(TextScan, FindsTheNumberOfHeadsOfAnyForm) {
        {std::string(":100 (PLATE)\n"), std::string("%O100(PLATE)\n"), std::string("% : 100"),
         std::string("o 0100"), std::string("%100"), std::string("% TITLE\r\nO100\r\n"),
         std::string("(a)\n* b\n; c\n\n (d) O100"), std::string("\xef\xbb\xbf%\nO100"), nul + "%\nO100\n",
-        nul + "O100\n", std::string("TEXT 1\r%\rO100\r"), std::string("TEXT\n%100\n"),
-        "(" + std::string(5000, 'x') + ")\nO100\nX1\n"})
+        nul + "O100\n", std::string("$PLATE.MIN%\nO100\n"), std::string("TEXT 1\r%\rO100\r"),
+        std::string("TEXT\n%100\n"), "(" + std::string(5000, 'x') + ")\nO100\nX1\n"})
     EXPECT_EQ(number_in(text), (machine::ProgramNumber{100, 0})) << text;
   EXPECT_EQ(number_in("%100.9(NUM)\n"), (machine::ProgramNumber{100, 9}));
 }

@@ -76,7 +76,8 @@ TEST(NumDialect, MessagesAreThoseOfTheirLine) {
 
 TEST(NumDialect, TheTextOfAMessageIsReadableWhileItsCommandIsTheNewest) {
   TestMachine machine = num_machine();
-  // 0xe9 is an e with an acute accent in Windows-1252 and no UTF-8; the last text has 49 characters of two bytes.
+  // 0xe9 is an e with an acute accent in Windows-1252 and no UTF-8; the last text has 49 characters of two
+  // bytes.
   std::string long_text;
   for (int i = 0; i < 49; ++i) long_text += "\xc3\xa9";
   const std::string text =

@@ -58,6 +58,7 @@ TEST(ProgramText, WhatStandsInFrontOfTheMarkOfTheTapeIsPassed) {
         std::string("PART 12\n"), std::string("2024-05-01 LIST\r(c)\r\r"), std::string("50% OFF\n"),
         std::string("(not closed\n"), nul(3) + "TEXT\n" + nul(2) + "\n"})
     EXPECT_EQ(stream_of(leader + program), (Stream{"rapid X1", "end 30"})) << leader;
+  EXPECT_EQ(stream_of("$FLANGE.MIN%\r\nO1000\r\nG0 X1\r\n"), (Stream{"rapid X1", "end 0"})) << "Okuma's";
   EXPECT_EQ(stream_of(nul(3) + "O1000\nG0 X1\n"), (Stream{"rapid X1", "end 0"}))
       << "blank tape needs no mark";
 }
