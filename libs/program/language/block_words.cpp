@@ -77,7 +77,7 @@ Fault BlockWords::collect_m() {
   return {};
 }
 
-bool BlockWords::has_function(const MCode& code) const {
+bool BlockWords::reaches_logic(const MCode& code) const {
   return functions_ == nullptr || code.group == MGroup::flow || functions_->has(code.number);
 }
 

@@ -84,6 +84,8 @@ std::vector<Wrong> wrong_programs() {
       {value_range, "G4 X100000", 1, 4, ": X100000"},
       {value_range, "M98 P1 L0", 1, 8, ": L0"},
       {value_range, "G2 I1 L0 F1", 1, 7, ": L0"},
+      {value_range, "G31 P5 X1 F1", 1, 5, ": P5"},
+      {unused_word, "G31 L1 P2 X1 F1", 1, 8, ": P2"},
       // 10 mm at a lead of 0.001 mm are 10,000 turns; 9999 are the most.
       {value_range, "G2 X10 Z10 I5 J0 K.001 F1", 1, 18, ": K.001"},
       {unused_word, "G1 X1 F1 R5", 1, 10, ": R5"},
@@ -321,7 +323,7 @@ TEST(Alarm, LineWithAFaultLeavesNothingToTheNextLine) {
   };
   const std::array cases{
       // The cycle's depth stays -4.
-      Case{"F100 G81 Z-4 R1 L0\n", "G81 Z-9 R3 L0 Q0\n", "X5\n", "line X5 Z-4"},
+      Case{"F100 G81 Z-4 R1 L0\n", "G81 Z-9 R3 L0 Q.0005\n", "X5\n", "line X5 Z-4"},
       // Nothing was passed on the way to the reference position: G29 goes over X1.
       Case{"G28 X1\n", "G28 X7 V3 K1\n", "G29 X2\n", "rapid X1"},
       // G52 of the faulty line does not shift.

@@ -67,7 +67,7 @@ inline std::vector<WrongMotion> wrong_motion() {
       {cycle_depth_missing, "G81 X1 Z-1 F1", 1, 1, ": G81"},
       {cycle_depth_missing, "G81 X1 R1 F1", 1, 1, ": G81"},
       {cycle_peck_missing, "G83 X1 Z-1 R1 F1", 1, 1, ": G83"},
-      {cycle_peck_missing, "G83 X1 Z-1 R1 Q0 F1", 1, 15, ": Q0"},
+      {cycle_peck_missing, "G83 X1 Z-1 R1 Q0.0005 F1", 1, 15, ": Q0.0005"},
       {cycle_inverse_time, "G93 G81 X1 Z-1 R1 F1", 1, 5, ": G81"},
       {cycle_lead_missing, "G84 X1 Z-1 R1 F1", 1, 1, ": G84"},
       {cycle_lead_missing, "S100 G84 X1 Z-1 R1", 1, 6, ": G84"},
