@@ -191,7 +191,7 @@ constexpr std::array rows = {
     GCode{681, Group::rotation, AxisWords::taken,
           run<&BlockHandlers::planes, &TiltedPlanes::tilt_to_stored_plane>,
           "tilted plane number Q of the table; P0 shortest, P1 positive, P2 negative "
-          "swing",
+          "swing, P3 and P4 as P1 and P2 where that is in travel, otherwise the other solution",
           Origin::hnc, "0.2", "G43.4 H1\nG68.1 Q1\nG53.2"},
     GCode{682, Group::rotation, AxisWords::taken,
           run<&BlockHandlers::planes, &TiltedPlanes::tilt_by_angles, true>,
@@ -294,6 +294,22 @@ constexpr std::array rows = {
           "as G28.2; a letter alone names an axis", Origin::num, "0.3", "G159 X Z"},
 };
 
+struct Refused {
+  std::uint16_t tenths;
+  const char* why;
+};
+constexpr const char* no_polar = "polar interpolation on C is not possible";
+constexpr const char* no_cylinder = "cylindrical interpolation is not possible";
+constexpr std::array refused = {
+    Refused{71, no_cylinder},
+    Refused{121, no_polar},
+    Refused{131, no_polar},
+    Refused{1070, no_cylinder},
+    Refused{1120, no_polar},
+    Refused{1130, no_polar},
+    Refused{1500, "write G65 P90150 or G12, G13"},
+};
+
 constexpr std::uint8_t no_code = 0xff;
 constexpr std::size_t g_numbers = 1600;  // tenths below it can be codes
 static_assert(rows.back().tenths < g_numbers && rows.size() < no_code);
@@ -307,6 +323,12 @@ constexpr auto g_index = [] {
 }  // namespace
 
 constinit const std::span<const GCode> g_codes = rows;
+
+const char* refused_g(std::uint32_t tenths) {
+  for (const Refused& code : refused)
+    if (code.tenths == tenths) return code.why;
+  return nullptr;
+}
 
 const GCode* g_code(std::uint32_t tenths) {
   if (tenths >= g_index.size() || g_index[tenths] == no_code) return nullptr;
