@@ -115,6 +115,7 @@ inline std::vector<WrongMotion> wrong_motion() {
       {frame_shift, "G68 X0 Y0 R10\nG92 X0", 2, 1, ": G92"},
       {tilt_points, "G43.4 H1\nG68.1 Q5", 2, 7, ": Q5"},
       {missing_word, "G43.4 H1\nG68.2 X0 Y0 Z0 I0 J0", 2, 1, ": G68.2, needs K"},
+      {value_range, "G43.4 H1\nG68.2 X0 Y0 Z0 I0 J10 K0 P5", 2, 26, ": P5"},
       {tilt_swing_missing, tilt + "G0 X1", 3, 1, ": G0"},
       {tilt_swing_missing, tilt + "G53.1 X1", 3, 1, ": G53.1"},
       {tilt_swing_missing, tilt + "M30", 3, 1, ": M30"},
