@@ -73,6 +73,7 @@ class BlockReader {
       return {};
     }
     if (c == ',') return comma_word(at);
+    if (c == '$') return {AlarmNumber::unknown_character, at, "variables of SINUMERIK are not known"};
     if (c == '%' || c == '/') return {AlarmNumber::misplaced_head, at};
     const bool broken = text::valid_utf8_prefix(line_.substr(at, 4)) == 0;
     return {broken ? AlarmNumber::not_utf8 : AlarmNumber::unknown_character, at};
@@ -111,6 +112,8 @@ class BlockReader {
   Fault word(char name) {
     const std::uint16_t at = scanner_.offset();
     scanner_.advance();
+    if (name == 'T' && scanner_.take('='))
+      return {AlarmNumber::number_missing, at, "a tool is called by its number"};
     Value value;
     if (names_axis(name)) {
       value = Value::of(0);

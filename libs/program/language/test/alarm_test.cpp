@@ -34,6 +34,8 @@ std::vector<Wrong> wrong_programs() {
       {unknown_character, "(\xe5\x8f\xb0) \xe5\x8f\xb0", 1, 5, ": \xe5\x8f\xb0"},
       {unknown_character, std::string("G0\0X1", 5), 1, 3, ": ?"},
       {unknown_character, "G0 X1 )", 1, 7, ": )"},
+      {unknown_character, "$P_UIFR[1]=CTRANS(X,150)", 1, 1, ": $, variables of SINUMERIK are not known"},
+      {number_missing, "T=\"3D_PROBE\"", 1, 1, ": T, a tool is called by its number"},
       {unknown_character, "X5 5", 1, 4, ": 5"},
       {open_comment, "G0\r\nX1 (open\nX2)", 2, 4, ": ("},
       {number_missing, "G0 X Y1", 1, 4, ": X"},
