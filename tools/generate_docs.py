@@ -125,7 +125,7 @@ def alarms():
 def code_tables():
     """Rows of the G codes, of the calls and of the M codes, and the files they are from."""
     g_path, m_path, calls = (f"libs/program/language/{f}" for f in ("codes.cpp", "codes.hpp", "macro_call.hpp"))
-    dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC", "num": "NUM", "g2core": "g2core", "linuxcnc": "LinuxCNC"}
+    dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC", "num": "NUM", "g2core": "g2core", "linuxcnc": "LinuxCNC", "haas": "Haas", "mitsubishi": "Mitsubishi"}
     program = lambda text: "`" + joined(text).replace("\\n", " / ") + "`"
     shown = r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT
     g = [(int(t), group, joined(text), dialect[o], joined(since), program(example)) for t, group, text, o, since, example in
@@ -163,12 +163,12 @@ def codes():
     out = ["# G and M codes", "", f"Generated from `{g_path}`, `{m_path}` and `{calls}` by `tools/generate_docs.py`.", "", "## G codes", "",
            "A block may contain one code of each group; a second one is an alarm. Every group except *one_block* and *exact_stop* is modal: the "
            "code stays active until another code of its group. "
-           "A motion code ends a cycle. A channel with parameter 04c959 = 1 reads the functions of [num.md](num.md) instead. *Dialect*: ISO 6983, Fanuc, HNC-8 or NUM controls, g2core or LinuxCNC; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
+           "A motion code ends a cycle. A channel with parameter 04c959 = 1 reads the functions of [num.md](num.md) instead. *Dialect*: ISO 6983, Fanuc, HNC-8, NUM, Haas or Mitsubishi controls, g2core or LinuxCNC; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
     out += table(("code", "group", "meaning", "dialect", "since", "example"), [(code_name(t), *rest) for t, *rest in g])
-    out += ["", "## Calls", "", "Such a code is the only code of its block; see [macros.md](macros.md) for the arguments.", ""]
+    out += ["", "## Calls", "", "Such a code is the only code of its block, but for G90 or G91 beside G12, G13 and G37; see [macros.md](macros.md) for the arguments.", ""]
     out += table(("code", "meaning", "dialect", "since", "example"), [(code_name(a) + (f" .. {code_name(b)}" if b != a else ""), *rest) for a, b, *rest in c])
     out += ["", "## M codes", "", "*before* and *after*: the code acts before or after the motion of its block. A block may contain one M code of each group, and none "
-            "twice. Parameters 04c944 to 04c949 list the M codes that the machine's logic carries out, in groups likewise; any other one is alarm 1104. "
+            "twice. Parameters 04c944 to 04c949 list the M codes that the machine's logic carries out, in groups likewise; any other one is alarm 1104, but for M29. "
             "Those that are not in this table go to the PLC before the motion, except those of parameters 010170 to 010177, which call G1007 to G1014.", ""]
     return out + table(("code", "acts", "group", "handled as", "meaning"), [(f"M{n}", when, "" if group == "none" else group, action, text) for n, when, action, group, text in m])
 
@@ -215,8 +215,10 @@ def macros():
             "with that N; in the main program `M99 P_` jumps to that block, and `M99` starts the program again. Calls nest 8 deep.", "",
             "`CYCLE1234(1, \"text\", , 4)` calls O1234 as a macro; its arguments are #1 #2 #3 #4, and vacant where one is left out or a text. The "
             "control has O9960 for `CYCLE9960` ([calibration.md](calibration.md#in-a-program)), O9801 "
-            "([calibration-programs.md](calibration-programs.md)) and O9810 to O9819 ([measuring-cycles.md](measuring-cycles.md)); a stored "
-            "program goes before them.", "",
+            "([calibration-programs.md](calibration-programs.md)), O9810 to O9819 ([measuring-cycles.md](measuring-cycles.md)) and O90150 for "
+            "[pockets](motion-language.md#pockets); a stored program goes before them. So it is with O90120 for G12 and G13, O90370 for G37 and "
+            "O90800 for `CYCLE800` ([motion-language.md](motion-language.md#cycle800)), which with a name that is a number has it as its argument "
+            "and needs no brackets without arguments. G12, G13 and G37 give their macro also L and P as #12 and #16.", "",
             "`G66` calls after each block that moves, canned cycles included. `G66.1` calls instead of each following block until `G67`; the letters of the "
             "block are the arguments, and G (the last one), L, N and P are #10, #12, #14 and #16.", "",
             "The letters of a macro become the variables of Fanuc's argument list I. I, J and K may be given up to ten times, and are then #4 #5 #6, "

@@ -17,8 +17,10 @@ using language::CommandKind;
 
 void Summary::add(const language::Command& command) {
   if (command.kind == CommandKind::tool) tools_.insert(command.number);
-  if (command.kind == CommandKind::transformation && command.modal.tilt.solution != 0 && plane_line_ == 0)
-    plane_line_ = command.line, plane_solution_ = command.modal.tilt.solution;
+  const auto solution = command.modal.tilt.solution;
+  const bool by_p = solution == 1 || solution == 2;
+  if (command.kind == CommandKind::transformation && by_p && plane_line_ == 0)
+    plane_line_ = command.line, plane_solution_ = solution;
   if (command.kind == CommandKind::dwell) dwell_seconds_ += command.dwell_seconds;
 }
 

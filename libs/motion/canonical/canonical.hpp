@@ -29,7 +29,8 @@ struct Tilt {
   bool active = false;
   Vector3 origin{};                                         ///< mm, in the workpiece frame
   std::array<double, 9> matrix{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< rows; its columns are the plane's X, Y, Z
-  std::uint8_t solution = 0;  ///< of the rotary axes: 0 the shortest way, 1 positive, 2 negative
+  /// Of the rotary axes: 0 the shortest way, 1 positive, 2 negative, 3 and 4 these where they are in travel.
+  std::uint8_t solution = 0;
   bool operator==(const Tilt&) const = default;
 
   template <class Self, class Visit>

@@ -136,7 +136,15 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   dwell_point_ = static_cast<language::DwellPoint>(p.integer(parameter::dwell_point, channel_));
   two_tool_words_ = static_cast<language::TwoToolWords>(p.integer(parameter::two_tool_words, channel_));
   cycles_ = {p.get(parameter::cycle_retract, channel_), p.get(parameter::cycle_clearance, channel_),
-             p.integer(parameter::cycle_shift_axis, channel_)};
+             p.integer(parameter::cycle_shift_axis, channel_),
+             static_cast<language::OneStroke>(p.integer(parameter::drilling_in_one_stroke, channel_))};
+  for (std::uint32_t i = 0; i < skips_.size(); ++i)
+    skips_[i] = {static_cast<std::uint32_t>(p.integer(parameter::skip_code_input, channel_, i)),
+                 p.get(parameter::skip_code_feed, channel_, i)};
+  length_measuring_ = {p.get(parameter::length_measuring_distance, channel_),
+                       p.get(parameter::length_measuring_range, channel_),
+                       p.get(parameter::length_measuring_feed, channel_),
+                       static_cast<std::uint32_t>(p.integer(parameter::length_measuring_input, channel_))};
   cutter_ = {p.integer(parameter::cutter_feed_at_contour) != 0,
              p.integer(parameter::cutter_wear_sign) != 0 ? 1 : -1,
              p.integer(parameter::cutter_interference_check) != 0,

@@ -84,6 +84,8 @@ class ChannelSetup : public language::Environment {
   bool plane_angles_by_p() const override { return plane_angles_by_p_; }
   bool combined_feed() const override { return limits_.combined_feed; }
   language::CycleSettings cycle_settings() const override { return cycles_; }
+  language::SkipSettings skip_settings(std::uint32_t number) const override { return skips_.at(number - 1); }
+  language::LengthMeasuring length_measuring() const override { return length_measuring_; }
   language::CutterSettings cutter_settings() const override { return cutter_; }
   std::optional<std::array<language::Vector3, 3>> plane_points(std::uint8_t index) const override;
   /// Within the travel of the rotary axes, by the closed form of geometry::OrientationSolver.
@@ -192,6 +194,8 @@ class ChannelSetup : public language::Environment {
   };
   std::map<std::uint32_t, ExternalParameter> external_parameters_;
   language::CycleSettings cycles_;
+  std::array<language::SkipSettings, 3> skips_{};
+  language::LengthMeasuring length_measuring_;
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};
   std::array<std::uint16_t, 8> cycle_m_codes_{};

@@ -191,6 +191,7 @@ Fault BlockExecutor::auxiliary(When when) {
 
 Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
   ModalState& modal = context_.state.modal;
+  if (!context_.words.reaches_logic(code)) return {};
   if (code.action == MAction::tool_change) modal.tool = modal.selected_tool;
   if (code.group == MGroup::spindle) {
     context_.state.parked = SpindleDirection::stopped;

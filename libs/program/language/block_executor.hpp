@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "language/block_handlers.hpp"
@@ -120,6 +121,9 @@ class BlockExecutor {
   /// The same in the workpiece frame, without rotation, scaling, mirror or tilted plane.
   AxisValues workpiece_position() const { return context_.state.workpiece_position(); }
   void set_position(const AxisValues& position);
+
+  /// Of the active D, mm, with its wear; nothing when the tool has none.
+  std::optional<double> cutter_radius() const { return handlers_.tool.cutter_radius(); }
 
   const ProgramFrame& frame() const { return context_.state.frame(); }
   /// That of a command, by its ModalState::frame, while no more than CommandOutput::frames_kept others came

@@ -47,8 +47,9 @@ Fault BlockWords::collect_g() {
     const CodeWord& word = block_->g[i];
     const double tenths = std::round(word.value * 10);
     const bool exact = std::abs(word.value * 10 - tenths) < 1e-9 && tenths >= 0 && tenths < 10000;
-    const GCode* const code = exact ? g_code(static_cast<std::uint32_t>(tenths)) : nullptr;
-    if (code == nullptr) return {AlarmNumber::unknown_g, word.offset};
+    const auto number = static_cast<std::uint32_t>(exact ? tenths : 0);
+    const GCode* const code = exact ? g_code(number) : nullptr;
+    if (code == nullptr) return {AlarmNumber::unknown_g, word.offset, exact ? refused_g(number) : nullptr};
     if (g_.has(code->group)) return {AlarmNumber::group_twice, word.offset};
     g_.add(*code, word.offset);
   }
@@ -77,7 +78,7 @@ Fault BlockWords::collect_m() {
   return {};
 }
 
-bool BlockWords::has_function(const MCode& code) const {
+bool BlockWords::reaches_logic(const MCode& code) const {
   return functions_ == nullptr || code.group == MGroup::flow || functions_->has(code.number);
 }
 

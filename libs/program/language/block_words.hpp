@@ -91,7 +91,9 @@ class BlockWords {
   Fault report_unused() const;
 
   /// The control or the machine's logic carries M`code` out.
-  bool has_function(const MCode& code) const;
+  bool has_function(const MCode& code) const { return is_granted(code.number) || reaches_logic(code); }
+  /// It makes a command: where no machine is known every M code does.
+  bool reaches_logic(const MCode& code) const;
   /// A whole number in [low, high].
   Fault whole_number(char letter, std::uint32_t low, std::uint32_t high, std::uint32_t& value);
   /// Seconds: P in milliseconds, or as the machine takes a decimal point in it (P1.5).

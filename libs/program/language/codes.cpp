@@ -77,7 +77,20 @@ constexpr std::array rows = {
           "as G28 to reference position P2..P4 (2 without P)", Origin::fanuc, "0.2", "G30 P2 X1"},
     GCode{310, Group::one_block, AxisWords::taken,
           run<&BlockHandlers::positioning, &Positioning::move_until_skip>,
-          "line that ends when skip input L (1 without L) comes", Origin::hnc, "0.2", "G31 L1 X1 F100"},
+          "line that ends when skip input L or P (1 without them) comes", Origin::hnc, "0.2",
+          "G31 L1 X1 F100"},
+    GCode{311, Group::one_block, AxisWords::taken,
+          run<&BlockHandlers::positioning, &Positioning::move_until_numbered_skip, 1>,
+          "as G31 with the skip input of parameter 04c761; feed of 04c764 where the block has no F",
+          Origin::mitsubishi, "0.3", "G31.1 X1 F100"},
+    GCode{312, Group::one_block, AxisWords::taken,
+          run<&BlockHandlers::positioning, &Positioning::move_until_numbered_skip, 2>,
+          "as G31 with the skip input of parameter 04c762; feed of 04c765 where the block has no F",
+          Origin::mitsubishi, "0.3", "G31.2 X1 F100"},
+    GCode{313, Group::one_block, AxisWords::taken,
+          run<&BlockHandlers::positioning, &Positioning::move_until_numbered_skip, 3>,
+          "as G31 with the skip input of parameter 04c763; feed of 04c766 where the block has no F",
+          Origin::mitsubishi, "0.3", "G31.3 X1 F100"},
     GCode{320, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 33>,
           "as G33", Origin::fanuc, "0.3", "S100 M3\nG32 Z-1 F0.5"},
     GCode{330, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 33>,
@@ -178,7 +191,7 @@ constexpr std::array rows = {
     GCode{681, Group::rotation, AxisWords::taken,
           run<&BlockHandlers::planes, &TiltedPlanes::tilt_to_stored_plane>,
           "tilted plane number Q of the table; P0 shortest, P1 positive, P2 negative "
-          "swing",
+          "swing, P3 and P4 as P1 and P2 where that is in travel, otherwise the other solution",
           Origin::hnc, "0.2", "G43.4 H1\nG68.1 Q1\nG53.2"},
     GCode{682, Group::rotation, AxisWords::taken,
           run<&BlockHandlers::planes, &TiltedPlanes::tilt_by_angles, true>,
@@ -198,7 +211,7 @@ constexpr std::array rows = {
           "active drilling cycle on an arc: centre, radius I, first angle J, angle P between holes, K holes",
           Origin::hnc, "0.2", "G81 Z-1 R1 L0 F100\nG71 X0 Y0 I10 J0 P15 K4"},
     GCode{730, Group::cycle, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_cycle, 73>,
-          "chip-breaking drilling: Q per peck", Origin::fanuc, "0.2", "G73 Z-4 R1 Q2 F100"},
+          "chip-breaking drilling: Q per peck, Q0 in one stroke", Origin::fanuc, "0.2", "G73 Z-4 R1 Q2 F100"},
     GCode{740, Group::cycle, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_cycle, 74>,
           "rigid tapping, left-hand thread, at S; G94: lead = F / S, G95: lead = F; Q per peck; J1..6: the "
           "spindle is the axis A B C U V W",
@@ -219,9 +232,14 @@ constexpr std::array rows = {
     GCode{820, Group::cycle, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_cycle, 82>,
           "drilling with dwell P", Origin::iso, "0.2", "G82 Z-4 R1 P100 F100"},
     GCode{830, Group::cycle, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_cycle, 83>,
-          "deep drilling: Q per peck, out to R between", Origin::iso, "0.2", "G83 Z-4 R1 Q2 F100"},
+          "deep drilling: Q per peck, out to R between, Q0 in one stroke", Origin::iso, "0.2",
+          "G83 Z-4 R1 Q2 F100"},
     GCode{840, Group::cycle, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_cycle, 84>,
           "rigid tapping, right-hand thread; words as G74", Origin::iso, "0.2", "G95 S100 G84 Z-4 R1 F1"},
+    GCode{842, Group::cycle, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_cycle, 84>,
+          "as G84", Origin::fanuc, "0.3", "G95 S100 G84.2 Z-4 R1 F1"},
+    GCode{843, Group::cycle, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_cycle, 74>,
+          "as G74", Origin::fanuc, "0.3", "G95 S100 G84.3 Z-4 R1 F1"},
     GCode{849, Group::one_block, AxisWords::taken, run<&BlockHandlers::tap_removal, &TapRemoval::run>,
           "removal of a tap: one axis word, how far out from the position; K lead, negative left-hand; S",
           Origin::num, "0.3", "S200 G84.9 Z12 K1.25"},
@@ -284,6 +302,22 @@ constexpr std::array rows = {
           "as G28.2; a letter alone names an axis", Origin::num, "0.3", "G159 X Z"},
 };
 
+struct Refused {
+  std::uint16_t tenths;
+  const char* why;
+};
+constexpr const char* no_polar = "polar interpolation on C is not possible";
+constexpr const char* no_cylinder = "cylindrical interpolation is not possible";
+constexpr std::array refused = {
+    Refused{71, no_cylinder},
+    Refused{121, no_polar},
+    Refused{131, no_polar},
+    Refused{1070, no_cylinder},
+    Refused{1120, no_polar},
+    Refused{1130, no_polar},
+    Refused{1500, "write G65 P90150 or G12, G13"},
+};
+
 constexpr std::uint8_t no_code = 0xff;
 constexpr std::size_t g_numbers = 1600;  // tenths below it can be codes
 static_assert(rows.back().tenths < g_numbers && rows.size() < no_code);
@@ -297,6 +331,12 @@ constexpr auto g_index = [] {
 }  // namespace
 
 constinit const std::span<const GCode> g_codes = rows;
+
+const char* refused_g(std::uint32_t tenths) {
+  for (const Refused& code : refused)
+    if (code.tenths == tenths) return code.why;
+  return nullptr;
+}
 
 const GCode* g_code(std::uint32_t tenths) {
   if (tenths >= g_index.size() || g_index[tenths] == no_code) return nullptr;

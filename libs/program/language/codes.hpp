@@ -40,12 +40,14 @@ inline constexpr std::size_t group_count = 20;
 
 /// Where a code comes from.
 enum class Origin : std::uint8_t {
-  iso,       ///< ISO 6983, and the same on every control of this family
-  fanuc,     ///< as on Fanuc controls
-  hnc,       ///< as on HNC-8 controls
-  num,       ///< as on NUM controls
-  g2core,    ///< as on g2core and TinyG
-  linuxcnc,  ///< as in LinuxCNC
+  iso,         ///< ISO 6983, and the same on every control of this family
+  fanuc,       ///< as on Fanuc controls
+  hnc,         ///< as on HNC-8 controls
+  num,         ///< as on NUM controls
+  g2core,      ///< as on g2core and TinyG
+  linuxcnc,    ///< as in LinuxCNC
+  haas,        ///< as on Haas controls
+  mitsubishi,  ///< as on Mitsubishi controls
 };
 
 /// What the axis words of a block with the code mean.
@@ -75,6 +77,10 @@ extern const std::span<const GCode> g_codes;
 
 /// The code with this number times ten, or nullptr.
 const GCode* g_code(std::uint32_t tenths);
+
+/// Of a code of other controls that is not here: why, or what to write instead, at most 48 characters;
+/// otherwise nullptr.
+const char* refused_g(std::uint32_t tenths);
 
 /// When an M code acts, seen from the motion of its block.
 enum class When : std::uint8_t { before, after };
@@ -112,6 +118,10 @@ inline constexpr std::array m_codes = {
     MCode{9, When::after, MAction::auxiliary, MGroup::none, "coolant off"},
     MCode{19, When::before, MAction::auxiliary, MGroup::spindle,
           "spindle stop at its reference angle, or at R or P in deg"},
+    MCode{
+        29, When::before, MAction::auxiliary, MGroup::none,
+        "rigid tapping follows: nothing to do, since G74 and G84 are rigid; to the PLC where the list of the "
+        "channel has it"},
     MCode{30, When::after, MAction::program_end, MGroup::flow, "program end and rewind"},
     MCode{98, When::after, MAction::call, MGroup::flow, "subprogram call: P number, L repetitions"},
     MCode{99, When::after, MAction::go_back, MGroup::flow, "subprogram end"},
@@ -126,6 +136,10 @@ constexpr MCode m_code(std::uint16_t number) {
   }
   return {number, When::before, MAction::auxiliary, MGroup::none, "auxiliary function"};
 }
+
+/// What M`number` asks for is always so: it may stand where the machine's logic does not know it, and then
+/// makes no command.
+constexpr bool is_granted(std::uint16_t number) { return number == 29; }
 
 /// The modal motion code `motion` cuts a thread.
 constexpr bool is_thread(std::uint8_t motion) { return motion == 33 || motion == 34; }

@@ -305,14 +305,14 @@ AlarmNumber ControlVariables::homed(std::uint32_t axis, double& result) const {
 
 AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t index, Value& value) const {
   double result = 0;
+  value = Value{};  // vacant where there is nothing, so that a program can ask
   switch (range.kind) {
     case VariableKind::length:
     case VariableKind::length_wear:
     case VariableKind::radius:
     case VariableKind::radius_wear: {
       const auto tool = executor_.tables().tool(static_cast<std::uint16_t>(index + 1));
-      value = Value{};
-      if (!tool) return AlarmNumber::none;  // vacant, so that a program can ask
+      if (!tool) return AlarmNumber::none;
       result = in_program_units(X, range.kind == VariableKind::length        ? tool->length
                                    : range.kind == VariableKind::length_wear ? tool->length_wear
                                    : range.kind == VariableKind::radius      ? tool->radius.value_or(0)
@@ -338,6 +338,10 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
       if (const AlarmNumber alarm = modal(range.first + index, result); alarm != AlarmNumber::none)
         return alarm;
       break;
+    case VariableKind::cutter_radius:
+      if (!executor_.cutter_radius()) return AlarmNumber::none;
+      result = in_program_units(X, *executor_.cutter_radius());
+      break;
     case VariableKind::homed:
       if (const AlarmNumber alarm = homed(index, result); alarm != AlarmNumber::none) return alarm;
       break;
@@ -348,6 +352,7 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
       result = in_program_units(index, executor_.workpiece_position()[index]);
       break;
     case VariableKind::machine_position:
+      if (((environment_.axes() >> index) & 1u) == 0) return AlarmNumber::none;
       result = in_program_units(index, executor_.machine_position()[index]);
       break;
     case VariableKind::spindle: {

@@ -13,8 +13,7 @@ constexpr double smallest_peck = 0.001;  // mm
 constexpr std::uint32_t most_holes = 9999;
 constexpr std::uint32_t spindle_stop = 5;  // M5
 
-constexpr bool is_tapping(std::uint8_t cycle) { return cycle == 74 || cycle == 84; }
-constexpr bool is_shifting(std::uint8_t cycle) { return cycle == 76 || cycle == 87; }
+constexpr bool is_pecking(std::uint8_t cycle) { return cycle == 73 || cycle == 83; }
 
 }  // namespace
 
@@ -23,7 +22,7 @@ void DrillingCycles::reset() {
   hole_.stop();
 }
 
-// Words of a cycle stay until the next cycle code; X Y Z R of a block drill a hole with them.
+// Words of a cycle stay until G80 or a motion code; X Y Z R of a block drill a hole with them.
 Fault DrillingCycles::run() {
   const bool named = words_.g().has(Group::cycle);
   const std::uint32_t place_words = axis_bits | Block::bit('R');
@@ -84,15 +83,6 @@ Fault DrillingCycles::read_cycle_words() {
   CycleWords& words = state_.change_settings().cycle;
   HoleParameters& hole = words.hole;
   const ModalState& modal = state_.modal;
-  if (words_.g().has(Group::cycle)) {
-    const double initial = hole.initial;
-    words = CycleWords{};
-    hole.initial = initial;
-    hole.cycle = modal.cycle;
-    const CycleSettings settings = environment_.cycle_settings();
-    hole.retract = settings.retract;
-    hole.clearance = settings.clearance;
-  }
   if (words_.has('R')) {
     const double word = words_.length('R');
     hole.r = modal.absolute ? word : hole.initial + word;
@@ -121,8 +111,9 @@ Fault DrillingCycles::read_settings(CycleWords& words) {
       words.shift = {};
       words.shift[std::abs(axis) == 2 ? 1 : 0] = axis < 0 ? -q : q;
     } else {
-      if (q < smallest_peck) return {AlarmNumber::cycle_peck_missing, words_.offset('Q')};
+      if (q > 0 && q < smallest_peck) return {AlarmNumber::cycle_peck_missing, words_.offset('Q')};
       words.hole.peck = q;
+      words.has_q = true;
     }
   }
   const PlaneAxes plane = plane_axes(state_.modal.plane);
@@ -150,8 +141,7 @@ Fault DrillingCycles::check_cycle(std::uint16_t at) const {
   const CycleWords& words = state_.settings().cycle;
   if (!words.has_depth || !words.has_r) return {AlarmNumber::cycle_depth_missing, at};
   if (modal.feed_mode == FeedMode::inverse_time) return {AlarmNumber::cycle_inverse_time, at};
-  const bool pecks = modal.cycle == 73 || modal.cycle == 83;
-  if (pecks && !(words.hole.peck > 0)) return {AlarmNumber::cycle_peck_missing, at};
+  if (const Fault fault = check_pecks(at)) return fault;
   if (is_shifting(modal.cycle) && words.shift[0] == 0 && words.shift[1] == 0) {
     return {AlarmNumber::cycle_shift_missing, at};
   }
@@ -165,6 +155,15 @@ Fault DrillingCycles::check_cycle(std::uint16_t at) const {
   const bool speed = modal.spindle_mode == SpindleMode::speed && modal.spindle_speed > 0;
   if (tapping && !speed) return {AlarmNumber::cycle_lead_missing, at};
   return {};
+}
+
+// Fanuc refuses G73 and G83 without Q and with Q0 (alarm PS0045), and posts send Q0 for a hole without pecks.
+Fault DrillingCycles::check_pecks(std::uint16_t at) const {
+  const CycleWords& words = state_.settings().cycle;
+  if (!is_pecking(state_.modal.cycle) || words.hole.peck > 0) return {};
+  const OneStroke rule = environment_.cycle_settings().one_stroke;
+  const bool allowed = rule == OneStroke::always || (rule == OneStroke::by_zero && words.has_q);
+  return allowed ? Fault{} : Fault{AlarmNumber::cycle_peck_missing, at};
 }
 
 // In the plane that the spindle is square to, the tool drills from R down to the depth, in back boring (G87)
@@ -253,6 +252,10 @@ Fault DrillingCycles::drill_grid(std::uint16_t at) {
 Fault DrillingCycles::begin_holes() {
   ModalState& modal = state_.modal;
   HoleParameters& hole = state_.change_settings().cycle.hole;
+  const CycleSettings settings = environment_.cycle_settings();
+  hole.cycle = modal.cycle;
+  hole.retract = settings.retract;
+  hole.clearance = settings.clearance;
   hole.return_to_initial = modal.return_to_initial;
   hole.restart = modal.spindle_direction == SpindleDirection::ccw ? 4 : 3;
   lead_ = modal.feed_mode == FeedMode::per_revolution ? modal.feed

@@ -43,6 +43,7 @@ class DrillingCycles : private BlockHandler {
   Fault read_repeats(std::uint32_t& repeats);
   Fault place_holes(std::uint16_t at, std::uint32_t axes, std::uint32_t repeats, AxisValues& target);
   Fault check_cycle(std::uint16_t at) const;
+  Fault check_pecks(std::uint16_t at) const;
   Fault check_levels(std::uint16_t at) const;
   Fault read_pattern(std::uint16_t at, bool may_turn, Pattern& pattern);
   Fault begin_holes();

@@ -35,11 +35,30 @@ enum class TwoToolWords : std::uint8_t {
   change_and_ready,  ///< M6 of the block changes to the first one, and the second one is made ready
 };
 
+/// G73 and G83 without a peck are drilled in one stroke: never, where the program says so (Q0), or without Q
+/// too.
+enum class OneStroke : std::uint8_t { never, by_zero, always };
+
 /// How canned cycles move where no word gives it.
 struct CycleSettings {
   double retract = 1;    ///< mm, between two pecks of G73 and of tapping
   double clearance = 1;  ///< mm above the last depth, where G83 goes back to feed
   int shift_axis = 1;    ///< Q of G76 and G87 along the plane's axis 1 or 2, negative against it
+  OneStroke one_stroke = OneStroke::by_zero;  ///< parameter 040760
+};
+
+/// The skip move G31.1, G31.2 or G31.3: parameters 04c761..04c766.
+struct SkipSettings {
+  std::uint32_t input = 1;
+  double feed = 0;  ///< without F in the block, mm/min, of rotary axes alone deg/min; 0 = that of the program
+};
+
+/// Automatic measuring of a tool length (G37): parameters 04c767..04c770.
+struct LengthMeasuring {
+  double distance = 5;  ///< mm before the expected contact: to there in rapid
+  double range = 1;     ///< mm before and behind the expected contact: contact there is good
+  double feed = 50;     ///< mm/min
+  std::uint32_t input = 1;
 };
 
 /// How cutter radius compensation works: parameters 010044..010047.
@@ -169,6 +188,9 @@ class Environment {
   /// (parameter 040989).
   virtual bool plane_angles_by_p() const { return false; }
   virtual CycleSettings cycle_settings() const { return {}; }
+  /// Of G31.`number`, 1 to 3.
+  virtual SkipSettings skip_settings(std::uint32_t number) const { return {number + 1, 0}; }
+  virtual LengthMeasuring length_measuring() const { return {}; }
   virtual CutterSettings cutter_settings() const { return {}; }
   /// Origin, a point on +X and a point with positive Y of stored tilted plane `index` 1..20 (G68.1 Q), mm in
   /// the workpiece frame; nothing when it is not defined.

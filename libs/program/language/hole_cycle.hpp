@@ -7,6 +7,11 @@
 
 namespace trunnion::language {
 
+/// G74, G84: Q pecks, J the axis.
+constexpr bool is_tapping(std::uint8_t cycle) { return cycle == 74 || cycle == 84; }
+/// G76, G87: Q or I J K the shift.
+constexpr bool is_shifting(std::uint8_t cycle) { return cycle == 76 || cycle == 87; }
+
 /// One step at a hole. Levels are program coordinates of the axis across the plane, mm.
 struct HoleStep {
   enum class Kind : std::uint8_t {

@@ -215,6 +215,8 @@ class Interpreter {
   }
 
   State call_macro(Call& call, std::string_view line);
+  Fault carry_out_beside(const Call& call);
+  void add_settings(const Call& call);
   State call(const Call& call, std::string_view line);
   State found(TextSource& source, std::uint32_t program, TextPosition top);
   State enter(const Found& target);
@@ -234,6 +236,7 @@ class Interpreter {
   LineReader reader_;
   CommandQueue queue_;
   Block block_;
+  Block beside_;  // the codes beside that of a call
   CycleMCodes cycle_m_codes_{};
   std::array<CallLevel, max_nesting + 1> levels_{};
   std::size_t depth_ = 0;

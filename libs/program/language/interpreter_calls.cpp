@@ -24,8 +24,36 @@ Interpreter::State Interpreter::call_macro(Call& call, std::string_view line) {
     control_.set_modal_macro(modal_calls_.active() != nullptr);
     return State::running;
   }
+  if (call.kind == CallKind::control) {
+    if (const Fault fault = carry_out_beside(call)) return fail(fault, line);
+  }
   read_arguments(block_, call.kind, executor_.modal().absolute, arguments_);
+  if (call.kind == CallKind::control) add_settings(call);
   return this->call(call, line);
+}
+
+// G90 or G91 beside a code of the control.
+Fault Interpreter::carry_out_beside(const Call& call) {
+  beside_.clear();
+  for (std::size_t i = 0; i < block_.g_count; ++i)
+    if (block_.g[i].offset != call.offset) beside_.g[beside_.g_count++] = block_.g[i];
+  Flow flow;
+  return beside_.g_count == 0 ? Fault{}
+                              : executor_.execute(beside_, levels_[depth_].program, line_, queue_, flow);
+}
+
+// What a macro of the control has no variables for: its code, and parameters in the units of the program.
+void Interpreter::add_settings(const Call& call) {
+  constexpr double tenths = 10, millimetres_per_inch = 25.4;
+  auto& values = arguments_.values;
+  values[10] = Value::of(call.code / tenths);
+  if (call.code != length_measuring_code) return;
+  const LengthMeasuring measuring = environment_.length_measuring();
+  const double unit = executor_.modal().metric ? 1.0 : millimetres_per_inch;
+  values[27] = Value::of(measuring.distance / unit);
+  values[28] = Value::of(measuring.range / unit);
+  values[29] = Value::of(measuring.feed / unit);
+  values[30] = Value::of(measuring.input);
 }
 
 // The cycle is the program of its number, and its arguments are #1, #2 and so on.

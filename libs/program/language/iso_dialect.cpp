@@ -15,6 +15,13 @@
 namespace trunnion::language {
 namespace {
 
+/// Vacant when the text is no number.
+Value number_in(std::string_view text) {
+  const Decimal decimal = read_decimal(text.data(), text.data() + text.size());
+  const bool whole = decimal.status == DecimalStatus::ok && decimal.end == text.data() + text.size();
+  return whole ? Value::of(decimal.value) : Value();
+}
+
 class BlockReader {
  public:
   BlockReader(std::string_view line, SkipLevels skip, Variables& variables, Block& block)
@@ -85,6 +92,7 @@ class BlockReader {
       scanner_.advance();
       return {};
     }
+    if (c == '$') return {AlarmNumber::unknown_character, at, "variables of SINUMERIK are not known"};
     if (c == '.' || is_digit(c)) return continue_number(at);
     if (begins_head(c)) {
       if (may_be_head()) return read_head(scanner_, block_.head, block_.program_number);
@@ -165,6 +173,8 @@ class BlockReader {
   Fault word(char name) {
     const std::uint16_t at = scanner_.offset();
     scanner_.advance();
+    if (name == 'T' && scanner_.take('='))
+      return {AlarmNumber::number_missing, at, "a tool is called by its number"};
     Value value;
     if (names_axis(name)) {
       value = Value::of(0);
@@ -337,6 +347,8 @@ class BlockReader {
       block_.rest = scanner_.offset();
     } else if (scanner_.take_word("ELSE")) {
       fault = state(Statement::else_);
+    } else if (scanner_.looking_at("MCALL")) {
+      return {AlarmNumber::cycle_foreign, at, "write G81 .. G89, and G80 behind the holes"};
     } else if (scanner_.looking_at("CYCLE")) {
       calls_cycle_ = true;
       fault = cycle();
@@ -361,9 +373,15 @@ class BlockReader {
     if (name.status != DecimalStatus::ok || name.value > highest_label || name.value < 1 ||
         name.value != std::floor(name.value))
       return {AlarmNumber::number_range, block_.at};
-    block_.program_number = static_cast<std::uint32_t>(name.value);
+    const auto called = static_cast<std::uint32_t>(name.value);
+    if (const char* const instead = instead_of_cycle(called))
+      return {AlarmNumber::cycle_foreign, block_.at, instead};
+    block_.program_number = cycle_program(called);
+    // CYCLE800 needs no brackets to take the plane back.
+    if (called == swivel_cycle && (!scanner_.more() || scanner_.peek() == ';'))
+      return state(Statement::call_cycle);
     if (!scanner_.take('(')) return {AlarmNumber::operand_missing, scanner_.offset()};
-    const auto kinds = cycle_arguments(block_.program_number);
+    const auto kinds = cycle_arguments(called);
     if (!scanner_.take(')'))
       for (;;) {
         if (const Fault fault = argument(kinds)) return fault;
@@ -380,7 +398,8 @@ class BlockReader {
     const char c = more ? scanner_.peek() : '\0';
     if (block_.argument_count == kinds.size()) return {AlarmNumber::too_many_arguments, at};
     Value& value = block_.arguments[block_.argument_count];
-    const bool text = kinds[block_.argument_count] == 't';
+    const char kind = kinds[block_.argument_count];
+    const bool text = kind != 'n';
     value = Value();
     ++block_.argument_count;
     if (c == ',' || c == ')') return {};
@@ -390,6 +409,8 @@ class BlockReader {
     do scanner_.advance();
     while (!scanner_.at_end() && scanner_.peek() != '"');
     if (scanner_.at_end()) return {AlarmNumber::bracket_open, at};
+    const std::size_t first = at + std::size_t{1};
+    if (kind == 's') value = number_in(line_.substr(first, scanner_.offset() - first));
     scanner_.advance();
     return {};
   }

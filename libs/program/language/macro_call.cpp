@@ -20,6 +20,17 @@ Fault whole_word(const Block& block, char name, double lowest, double highest, s
   return {};
 }
 
+/// Beside a code of the control there may be G90 or G91, which the caller carries out.
+Fault check_beside(const Block& block, const Call& call) {
+  const Fault fault{AlarmNumber::call_not_alone, call.offset};
+  if (block.m_count != 0 || block.g_count > 2) return fault;
+  for (std::size_t i = 0; i < block.g_count; ++i) {
+    const CodeWord& word = block.g[i];
+    if (word.offset != call.offset && word.value != 90 && word.value != 91) return fault;
+  }
+  return {};
+}
+
 /// List I and II in the sequence they were written in: of a variable named by both, the later counts.
 void fanuc_arguments(const Block& block, Arguments& arguments) {
   std::array<std::uint16_t, local_variables> written{};
@@ -83,6 +94,10 @@ bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call)
       call.kind = entry.kind;
       call.offset = call.program_offset = block.g[i].offset;
       if (entry.kind == CallKind::cycle) call.number = static_cast<std::uint32_t>(code);
+      if (entry.kind == CallKind::control) {
+        call.code = entry.first;
+        call.number = entry.first == length_measuring_code ? length_measuring_macro : circular_pocket_macro;
+      }
       return true;
     }
   }
@@ -101,6 +116,7 @@ bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call)
 }
 
 Fault read_call(const Block& block, Call& call) {
+  if (call.kind == CallKind::control) return check_beside(block, call);
   const bool fanuc = call.kind == CallKind::macro || call.kind == CallKind::modal_macro ||
                      call.kind == CallKind::block_macro;
   if (block.two_tools) return {AlarmNumber::letter_twice, block.offset(second_tool_word)};
@@ -123,11 +139,13 @@ void read_arguments(const Block& block, CallKind kind, bool absolute, Arguments&
   arguments.clear();
   arguments.absolute = absolute;
   if (kind != CallKind::cycle) fanuc_arguments(block, arguments);
+  if (kind == CallKind::block_macro || kind == CallKind::control) {
+    if (block.has('L')) arguments.values[12] = Value::of(block.value('L'));
+    if (block.has('P')) arguments.values[16] = Value::of(block.value('P'));
+  }
   if (kind == CallKind::block_macro) {
     if (block.g_count != 0) arguments.values[10] = Value::of(block.g[block.g_count - 1u].value);
-    if (block.has('L')) arguments.values[12] = Value::of(block.value('L'));
     if (block.has('N')) arguments.values[14] = Value::of(block.value('N'));
-    if (block.has('P')) arguments.values[16] = Value::of(block.value('P'));
   }
   if (kind != CallKind::cycle) return;
   for (char name = 'A'; name <= 'Z'; ++name) {

@@ -36,9 +36,15 @@ enum class CallKind : std::uint8_t {
   block_macro,   ///< G66.1: instead of each block until G67, whose letters are the arguments
   modal_cancel,  ///< G67
   cycle,         ///< G1000..G1999 or a user M code: a level of its own, letter A is #0 .. Z is #25
+  control,       ///< a macro of the control carries the code out: as macro, also with L, P and the code
 };
 
-/// G codes that call programs; they are the only code of their block.
+/// What G12 and G13, and G37 call: no number that part programs usually have.
+inline constexpr std::uint32_t circular_pocket_macro = 90120, length_measuring_macro = 90370;
+inline constexpr std::uint16_t length_measuring_code = 370;  // tenths
+
+/// G codes that call programs; they are the only code of their block, but for G90 or G91 beside those of the
+/// control.
 struct CallCode {
   std::uint16_t first;  ///< tenths
   std::uint16_t last;
@@ -49,6 +55,18 @@ struct CallCode {
   const char* example;  ///< a program that shows the code
 };
 inline constexpr std::array call_codes = {
+    CallCode{
+        120, 120, CallKind::control,
+        "circular pocket clockwise about the position or X Y: I its radius, or that of the first circle and "
+        "K of the last with steps of Q; D cutter radius, Z depth, L passes of Z in G91, F",
+        Origin::haas, "0.3", "G12 I20 D1 Z-2 F100\nM30\nO90120\nM99"},
+    CallCode{130, 130, CallKind::control, "circular pocket counter-clockwise; words as G12", Origin::haas,
+             "0.3", "G13 I20 D1 Z-2 F100\nM30\nO90120\nM99"},
+    CallCode{
+        370, 370, CallKind::control,
+        "measures the length of the tool: contact is expected at Z; what it differs by is added to the wear "
+        "of the active length H; R D F instead of parameters 04c767 to 04c769",
+        Origin::fanuc, "0.3", "G90 G37 Z5\nM30\nO90370\nM99"},
     CallCode{650, 650, CallKind::macro, "macro call: P program, L repetitions, letters as arguments",
              Origin::fanuc, "0.2", "G65 P9010 A5\nM30\nO9010\nM99"},
     CallCode{660, 660, CallKind::modal_macro, "macro call as G65 behind each block that moves, until G67",
@@ -67,6 +85,7 @@ struct Call {
   std::uint32_t number = 0;  ///< of the program
   std::uint32_t repetitions = 1;
   bool counted = true;               ///< L was given, or no number can hold the repetitions
+  std::uint16_t code = 0;            ///< tenths, of kind control
   std::uint16_t offset = 0;          ///< of the code in its line
   std::uint16_t program_offset = 0;  ///< of the word that names the program
 };
@@ -81,7 +100,7 @@ bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call)
 Fault read_call(const Block& block, Call& call);
 
 /// The letters of the block as variables. Of a block that CallKind::block_macro has swallowed also G (the
-/// last one), L, N and P: #10, #12, #14 and #16.
+/// last one), L, N and P: #10, #12, #14 and #16. Of kind control also L and P.
 void read_arguments(const Block& block, CallKind kind, bool absolute, Arguments& arguments);
 
 /// Fanuc's argument list I: the variable each letter becomes; letters that are no arguments are not in it.

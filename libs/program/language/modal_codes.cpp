@@ -226,10 +226,9 @@ Fault ModalCodes::set_motion(std::uint16_t, std::uint8_t motion) {
 }
 
 Fault ModalCodes::set_cycle(std::uint16_t, std::uint8_t cycle) {
-  // The level a cycle comes back to is the one before the first of its kind.
-  if (state_.modal.cycle == 80 && cycle != 80) {
+  if (cycle != 80) {
     const double level = state_.program_position[plane_axes(state_.modal.plane).normal];
-    state_.change_settings().cycle.hole.initial = level;
+    state_.change_settings().cycle.begin(state_.modal.cycle, cycle, level);
   }
   state_.modal.cycle = cycle;
   return {};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/positioning.hpp"
 
+#include "language/letters.hpp"
+
 namespace trunnion::language {
 namespace {
 
@@ -143,12 +145,46 @@ Fault Positioning::approach_from_one_side(std::uint16_t at) {
   return output_.move_straight_in_command_frame(CommandKind::rapid, target);
 }
 
+bool Positioning::has_own_p() const {
+  if (!words_.has('P') || words_.used('P')) return false;
+  const MCodes& m = words_.m();
+  for (std::size_t i = 0; i < m.count; ++i)
+    if (m.codes[i].action == MAction::call || m.codes[i].action == MAction::go_back) return false;
+  return true;
+}
+
+// The input is L on HNC-8, and P on Fanuc (B-64484EN, multi-step skip).
 Fault Positioning::move_until_skip(std::uint16_t at) {
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   std::uint32_t input = 1;
-  if (words_.has('L')) {
-    if (const Fault fault = words_.whole_number('L', 1, highest_skip_input, input)) return fault;
+  const char letter = words_.has('L') ? 'L' : has_own_p() ? 'P' : '\0';
+  if (letter != '\0') {
+    if (const Fault fault = words_.whole_number(letter, 1, highest_skip_input, input)) return fault;
   }
+  return skip_move(at, input);
+}
+
+// Mitsubishi M700V/M70V programming manual, 15.3: each code has a feed and inputs of its own.
+Fault Positioning::move_until_numbered_skip(std::uint16_t at, std::uint32_t number) {
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  const SkipSettings settings = environment_.skip_settings(number);
+  ModalState& modal = state_.modal;
+  const double feed = modal.feed;
+  const FeedMode mode = modal.feed_mode;
+  if (settings.feed > 0 && !words_.has('F')) {
+    // A move of rotary axes alone takes an inch for a degree.
+    constexpr std::uint32_t linear_axes = letter_bits("XYZUVW");
+    const bool linear = (words_.letters() & linear_axes) != 0;
+    modal.feed = settings.feed * (linear ? 1.0 : words_.length_scale());
+    modal.feed_mode = FeedMode::per_minute;
+  }
+  const Fault fault = skip_move(at, settings.input);
+  modal.feed = feed;
+  modal.feed_mode = mode;
+  return fault;
+}
+
+Fault Positioning::skip_move(std::uint16_t at, std::uint32_t input) {
   std::uint32_t axes = 0;
   if (const Fault fault = words_.take_axes(at, axes)) return fault;
   if (const Fault fault = check_feed(at)) return fault;

@@ -3,6 +3,20 @@
 
 namespace trunnion::language {
 
+// A cycle takes over the words of the one before (Fanuc B-64484EN-2, 5.1), and comes back to the level before
+// the first of them. A peck of drilling is none of tapping, nor a shift.
+void CycleWords::begin(std::uint8_t before, std::uint8_t cycle, double level) {
+  if (before == 80) {
+    *this = CycleWords{};
+    hole.initial = level;
+  } else if (is_tapping(before) != is_tapping(cycle) || is_shifting(before) != is_shifting(cycle)) {
+    hole.peck = 0;
+    has_q = false;
+    shift = {};
+    tapping_axis = 0;
+  }
+}
+
 ProgramSettings& ProgramState::change_settings() {
   if (settings_place == saved_.settings_place) {
     settings_place ^= 1u;

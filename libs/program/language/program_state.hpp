@@ -13,13 +13,17 @@
 
 namespace trunnion::language {
 
-/// The words of a canned cycle, which stay until the next cycle code.
+/// The words of a canned cycle, which stay until G80 or a motion code.
 struct CycleWords {
   HoleParameters hole;
   bool has_depth = false;
   bool has_r = false;
+  bool has_q = false;              ///< of pecks, 0 too
   std::array<double, 2> shift{};   ///< of G76 and G87, mm in the plane
   std::uint32_t tapping_axis = 0;  ///< as Command::number of kind tap
+
+  /// The code `cycle` comes while `before` is active, 80: none; the axis across the plane is at `level`, mm.
+  void begin(std::uint8_t before, std::uint8_t cycle, double level);
 };
 
 /// What only few blocks change.

@@ -11,7 +11,8 @@ namespace {
 
 using Matrix3 = std::array<double, 9>;
 
-constexpr double no_length = 1e-9;  // mm
+constexpr double no_length = 1e-9;                                  // mm
+constexpr std::uint8_t prefers_positive = 3, prefers_negative = 4;  // P
 
 Vector3 difference(const Vector3& a, const Vector3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double norm(const Vector3& a) { return std::hypot(a[0], a[1], a[2]); }
@@ -102,7 +103,7 @@ Fault TiltedPlanes::tilt_by_angles(std::uint16_t at, bool turned_axes) {
 Fault TiltedPlanes::apply(const Tilt& tilt, bool angles_by_p) {
   std::uint32_t solution = 0;
   if (words_.has('P') && !angles_by_p) {
-    if (const Fault fault = words_.whole_number('P', 0, 2, solution)) return fault;
+    if (const Fault fault = words_.whole_number('P', 0, prefers_negative, solution)) return fault;
   }
   state_.swing_due = true;
   // Without tool tip control the length, now or from a later G43, acts along the tool in the plane.
@@ -146,12 +147,22 @@ Fault TiltedPlanes::clear_rotation(std::uint16_t at) {
   return {};
 }
 
+// What P3 and P4 prefer may be out of travel: then the other solution is taken (SINUMERIK 828D operating
+// manual, 08/2018, 10.6, "Direction").
+std::optional<AxisValues> TiltedPlanes::rotary_axes(const Vector3& direction) const {
+  const std::uint8_t solution = state_.modal.tilt.solution;
+  const bool prefers = solution >= prefers_positive;
+  const auto choice = static_cast<RotaryChoice>(prefers ? solution - 2 : solution);
+  const auto turned = environment_.orient(direction, state_.position, choice);
+  return turned || !prefers ? turned
+                            : environment_.orient(direction, state_.position, RotaryChoice::shortest);
+}
+
 // check() has seen to it that the block is due and alone.
 Fault TiltedPlanes::swing(std::uint16_t at, bool keep_tip) {
   if (keep_tip && state_.modal.plane_only) return {AlarmNumber::tip_control_needed, at};
   const Vector3 direction = state_.frame().turned_by_tilt({0, 0, 1});
-  const auto turned =
-      environment_.orient(direction, state_.position, static_cast<RotaryChoice>(state_.modal.tilt.solution));
+  const auto turned = rotary_axes(direction);
   if (!turned) return refuse_orientation(context_, direction, at);
   state_.swing_due = false;
   AxisValues target = state_.position;

@@ -2,6 +2,8 @@
 // Tilted planes: G68.1 .. G68.3, the swing of the tool to them, and moves along the tool.
 #pragma once
 
+#include <optional>
+
 #include "language/block_context.hpp"
 
 namespace trunnion::language {
@@ -24,6 +26,8 @@ class TiltedPlanes : private BlockHandler {
  private:
   Fault apply(const Tilt& tilt, bool angles_by_p = false);
   Fault swing_at_rest(AxisValues target);
+  /// That bring the tool to a direction of the workpiece frame, by P of the plane; nothing when none do.
+  std::optional<AxisValues> rotary_axes(const Vector3& direction) const;
   Vector3 tool_direction() const;
 };
 

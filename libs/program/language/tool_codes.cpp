@@ -98,13 +98,20 @@ Fault ToolCodes::radius_word() {
   return compensate(words_.offset('D'), false);
 }
 
+std::optional<double> ToolCodes::cutter_radius() const {
+  if (state_.modal.radius_offset == 0) return 0.0;
+  const auto tool = context_.tables.tool(state_.modal.radius_offset);
+  if (!tool || !tool->radius) return std::nullopt;
+  return *tool->radius + environment_.cutter_settings().wear_sign * tool->radius_wear;
+}
+
 Fault ToolCodes::compensate(std::uint16_t at, bool named) {
   const ModalState& modal = state_.modal;
   double radius = 0;
-  if (modal.cutter_side != CutterSide::off && modal.radius_offset != 0) {
-    const auto tool = context_.tables.tool(modal.radius_offset);
-    if (!tool || !tool->radius) return {AlarmNumber::radius_undefined, at};
-    radius = *tool->radius + environment_.cutter_settings().wear_sign * tool->radius_wear;
+  if (modal.cutter_side != CutterSide::off) {
+    const auto found = cutter_radius();
+    if (!found) return {AlarmNumber::radius_undefined, at};
+    radius = *found;
   }
   if (modal.cutter_side == CutterSide::off && !output_.compensating()) return {};
   const AxisValues here = state_.frame().contour_from_program(state_.program_position);

@@ -2,6 +2,8 @@
 // Tool length, tool tip control and cutter radius compensation: G43 .. G49, G40 .. G42, H and D.
 #pragma once
 
+#include <optional>
+
 #include "language/block_context.hpp"
 
 namespace trunnion::language {
@@ -25,6 +27,9 @@ class ToolCodes : private BlockHandler {
   /// H and D without a code.
   Fault length_word();
   Fault radius_word();
+
+  /// Of the active D, mm, with its wear; nothing when the tool has none.
+  std::optional<double> cutter_radius() const;
 
  private:
   struct Length {

@@ -34,6 +34,8 @@ std::vector<Wrong> wrong_programs() {
       {unknown_character, "(\xe5\x8f\xb0) \xe5\x8f\xb0", 1, 5, ": \xe5\x8f\xb0"},
       {unknown_character, std::string("G0\0X1", 5), 1, 3, ": ?"},
       {unknown_character, "G0 X1 )", 1, 7, ": )"},
+      {unknown_character, "$P_UIFR[1]=CTRANS(X,150)", 1, 1, ": $, variables of SINUMERIK are not known"},
+      {number_missing, "T=\"3D_PROBE\"", 1, 1, ": T, a tool is called by its number"},
       {unknown_character, "X5 5", 1, 4, ": 5"},
       {open_comment, "G0\r\nX1 (open\nX2)", 2, 4, ": ("},
       {number_missing, "G0 X Y1", 1, 4, ": X"},
@@ -61,6 +63,13 @@ std::vector<Wrong> wrong_programs() {
       {unknown_g, "G43.45", 1, 1, ": G43.45"},
       {unknown_g, "G-1", 1, 1, ": G-1"},
       {unknown_g, "G100000000", 1, 1, ": G100000000"},
+      {unknown_g, "G12.1", 1, 1, ": G12.1, polar interpolation on C is not possible"},
+      {unknown_g, "G13.1", 1, 1, ": G13.1, polar interpolation on C is not possible"},
+      {unknown_g, "G0 X1 G112", 1, 7, ": G112, polar interpolation on C is not possible"},
+      {unknown_g, "G113", 1, 1, ": G113, polar interpolation on C is not possible"},
+      {unknown_g, "G107 C20", 1, 1, ": G107, cylindrical interpolation is not possible"},
+      {unknown_g, "G7.1 C20", 1, 1, ": G7.1, cylindrical interpolation is not possible"},
+      {unknown_g, "G150 P1 D1", 1, 1, ": G150, write G65 P90150 or G12, G13"},
       {group_twice, "G0 G1 X1", 1, 4, ": G1"},
       {group_twice, "G1 G81 Z-1 R1", 1, 4, ": G81"},
       {group_twice, "G90 G90", 1, 5, ": G90"},
@@ -89,6 +98,8 @@ std::vector<Wrong> wrong_programs() {
       {value_range, "G4 X100000", 1, 4, ": X100000"},
       {value_range, "M98 P1 L-1", 1, 8, ": L-1"},
       {value_range, "G2 I1 L0 F1", 1, 7, ": L0"},
+      {value_range, "G31 P5 X1 F1", 1, 5, ": P5"},
+      {unused_word, "G31 L1 P2 X1 F1", 1, 8, ": P2"},
       // 10 mm at a lead of 0.001 mm are 10,000 turns; 9999 are the most.
       {value_range, "G2 X10 Z10 I5 J0 K.001 F1", 1, 18, ": K.001"},
       {unused_word, "G1 X1 F1 R5", 1, 10, ": R5"},
@@ -141,6 +152,14 @@ std::vector<Wrong> wrong_programs() {
       {text_behind_statement, "#1=1 2", 1, 6, ": 2"},
       {too_many_centres, "G65 P1" + repeated(" I1", 31), 1, 8 + 30 * 3, ": I1"},
       {argument_kind, "CYCLE9960(1,2)", 1, 13, ": 2"},
+      {cycle_foreign, "CYCLE81(10,0,2,-5)", 1, 1, ": CYCLE, write G81 X Y Z R F"},
+      {cycle_foreign, "N10 CYCLE150(30,10000,\"\")", 1, 5,
+       ": CYCLE, trunnion calibrate status has the protocol"},
+      {cycle_foreign, "MCALL CYCLE83(1)", 1, 1, ": MCALL, write G81 .. G89, and G80 behind the holes"},
+      {too_many_arguments, "CYCLE800(1" + repeated(",", 16) + ")", 1, 27, ": )"},
+      {call_not_alone, "G12 G17 I5", 1, 1, ": G12"},
+      {call_not_alone, "G90 G37 Z5 M8", 1, 5, ": G37"},
+      {subprogram_missing, "G37 Z5", 1, 1, ": G37"},
       {too_many_arguments, "CYCLE1234(1" + repeated(",1", 33) + ")", 1, 11 + 33 * 2, ": 1"},
       {end_without_begin, "G0 X1\nENDIF", 2, 1, ": ENDIF"},
       {end_without_begin, "N1 ENDW", 1, 4, ": ENDW"},
@@ -339,7 +358,7 @@ TEST(Alarm, LineWithAFaultLeavesNothingToTheNextLine) {
   };
   const std::array cases{
       // The cycle's depth stays -4.
-      Case{"F100 G81 Z-4 R1 L0\n", "G81 Z-9 R3 L0 Q.0001\n", "X5\n", "line X5 Z-4"},
+      Case{"F100 G81 Z-4 R1 L0\n", "G81 Z-9 R3 L0 Q.0005\n", "X5\n", "line X5 Z-4"},
       // Nothing was passed on the way to the reference position: G29 goes over X1.
       Case{"G28 X1\n", "G28 X7 V3 K1\n", "G29 X2\n", "rapid X1"},
       // G52 of the faulty line does not shift.

@@ -42,6 +42,40 @@ TEST(Cycles, JNamesALetterThatIsASpindle) {
   }
 }
 
+// M29 makes the next G84 rigid on Fanuc; here it is, so that a machine's logic need not know the code.
+TEST(Cycles, M29PreparesWhatIsAlwaysSo) {
+  TestMachine machine = machine_for_cycles();
+  // 500 mm/min at 400 1/min: 1.25 mm a turn.
+  const std::string text = "M29 S400\nF500 G99 G84 X0 Z-5 R0\nG80\nM30\n";
+  machine.functions.emplace();
+  machine.functions->add("3 4 5");
+  EXPECT_EQ(stream(run(machine, text)),
+            (std::vector<std::string>{"S400", "tap Z-5 lead1.25", "tap lead1.25", "end 30"}));
+  machine.functions->add("29");
+  EXPECT_EQ(stream(run(machine, text)),
+            (std::vector<std::string>{"S400", "M29", "tap Z-5 lead1.25", "tap lead1.25", "end 30"}));
+  EXPECT_EQ(run(machine, "M28\n").alarm.number, AlarmNumber::unknown_m);
+}
+
+TEST(Cycles, TheMachineSaysWhetherAHoleMayBeDrilledWithoutPecks) {
+  const auto alarm = [](OneStroke rule, const std::string& text) {
+    TestMachine machine = machine_for_cycles();
+    machine.cycles.one_stroke = rule;
+    return run(machine, text + "\n").alarm.number;
+  };
+  using enum AlarmNumber;
+  for (const char* const code : {"G73", "G83"}) {
+    const std::string zero = std::string(code) + " X1 Z-5 R2 Q0 F100";
+    const std::string without = std::string(code) + " X1 Z-5 R2 F100";
+    EXPECT_EQ(alarm(OneStroke::never, zero), cycle_peck_missing) << code;
+    EXPECT_EQ(alarm(OneStroke::never, without), cycle_peck_missing) << code;
+    EXPECT_EQ(alarm(OneStroke::by_zero, zero), none) << code;
+    EXPECT_EQ(alarm(OneStroke::by_zero, without), cycle_peck_missing) << code;
+    EXPECT_EQ(alarm(OneStroke::always, zero), none) << code;
+    EXPECT_EQ(alarm(OneStroke::always, without), none) << code;
+  }
+}
+
 // 5 mm times 2 and 1 mm times 2; the lead of the tap is what it is.
 TEST(Cycles, AScaleActsOnTheDepthOfATapAndNotOnItsLead) {
   TestMachine machine = machine_for_cycles();

@@ -72,6 +72,10 @@ void interpret(const std::uint8_t* data, std::size_t size, ProgramDialect dialec
   machine.axis_mask = 0b000111111;
   machine.programs["O0009"] = std::make_unique<StringSource>("G91 X1\n#100=#100+1\nM99\n");
   machine.programs["O0009.1"] = std::make_unique<StringSource>("G91 G1 F100 XL0\nL100=L100+1 G77 H8\n");
+  machine.programs["O90120"] = std::make_unique<StringSource>("D#7\nG#[#10-10] X[#4-#4207] I#20 F#9\nM99\n");
+  machine.programs["O90370"] = std::make_unique<StringSource>("G31 P#30 Z#26 F#29\n#[2000+#11]=#5063\nM99\n");
+  machine.programs["O90800"] = std::make_unique<StringSource>(
+      "IF [#2 EQ 0] THEN G69\nG68.3 X#5 Y#6 Z#7 I#8 J#9 K#10 P4\nG53.1\nM99\n");
   machine.programs["USERDEF.CYC"] = std::make_unique<StringSource>(
       "%1007\nWHILE #1 LT #0\n#1=#1+1\nX#1\nENDW\nM99\n%1010\nIF AR[#7] EQ 0\nM99 P5\nENDIF\nG1007 "
       "A[#7]\nM99\n");

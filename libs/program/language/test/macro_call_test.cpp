@@ -89,6 +89,28 @@ TEST(MacroCall, CYCLE9960TakesTheArgumentsOfItsSamplePrograms) {
       ElementsAre("rapid X11400 Y30 Z1", "end 30"));
 }
 
+TEST(MacroCall, ANameThatIsANumberCountsInCYCLE800WhichNeedsNoBrackets) {
+  TestMachine machine;
+  machine.programs["O90800"] = std::make_unique<StringSource>("G0 X#1 Y#2 Z#4\nM99\n");
+  EXPECT_THAT(
+      stream(run(machine,
+                 "CYCLE800(1,\"TABLE\",3,4)\nCYCLE800(1,\"7\",3,4)\nCYCLE800(2,\"\",3,5)\nN10 CYCLE800\n"
+                 "CYCLE800 ; off\nM30\n")),
+      ElementsAre("rapid X1 Z4", "rapid X1 Y7 Z4", "rapid X2 Y7 Z5", "end 30"));
+}
+
+// L and the code are arguments, too; G90 or G91 beside the code holds for the macro and behind it.
+TEST(MacroCall, MacrosOfTheControlGetTheWordsOfTheirCode) {
+  TestMachine machine;
+  machine.programs["O90120"] = std::make_unique<StringSource>("G0 X#4 Y#10 Z#12\nM99\n");
+  EXPECT_THAT(stream(run(machine, "G91 G12 I5 L3\nG0 X1\nG13 G90 I6 L4\nM30\n")),
+              ElementsAre("rapid X5 Y12 Z3", "rapid X6 Y12 Z3", "rapid X6 Y13 Z4", "end 30"));
+  // Distance 5 mm, feed 50 mm/min and input 1, in the units of the program.
+  machine.programs["O90370"] = std::make_unique<StringSource>("G0 X#27 Y#29 Z#30\nM99\n");
+  EXPECT_THAT(stream(run(machine, "G37 Z1\nM30\n")), ElementsAre("rapid X5 Y50 Z1", "end 30"));
+  EXPECT_THAT(stream(run(machine, "G20 G0 X0\nG37 Z1\nM30\n")), ElementsAre("rapid X5 Y50 Z25.4", "end 30"));
+}
+
 TEST(MacroCall, WhatIsWrongWithACycleCalledByNameIsAnAlarmWithItsColumn) {
   TestMachine machine;
   machine.programs["O9960"] = std::make_unique<StringSource>("M99\n");

@@ -174,6 +174,28 @@ TEST(Homing, AVariableSaysWhichAxesHaveTheirReference) {
   EXPECT_EQ(read(0, "#1321=1\n"), std::pair(-1.0, AlarmNumber::variable_read_only));
 }
 
+// The feed of the machine counts in its block alone, and where the block has none.
+TEST(Skip, TheNumberedCodesHaveAFeedOfTheMachine) {
+  TestMachine machine;
+  machine.skips[0] = {4, 80};
+  EXPECT_THAT(stream(run(machine, "G31.1 X5\nG1 X10 F30\nG31.1 X20 F40\nX30\n")),
+              testing::ElementsAre("skip4 X5 F80", "line X10 F30", "skip4 X20 F40", "line X30 F40", "end 0"));
+  // In G20, too, it is mm/min, and deg/min of a rotary axis.
+  EXPECT_THAT(stream(run(machine, "G20 G95 G31.1 X1\nG31.1 A5\n")),
+              testing::ElementsAre("skip4 X25.4 F80", "skip4 X25.4 A5 F80", "end 0"));
+  const Interpretation result = run(machine, "G95 F1 G31.1 X1\nG1 X2\n");
+  EXPECT_EQ(result.commands[0].modal.feed_mode, FeedMode::per_minute);
+  EXPECT_EQ(result.commands[1].modal.feed_mode, FeedMode::per_revolution);
+  EXPECT_EQ(result.commands[1].modal.feed, 1);
+}
+
+TEST(Skip, POfACallIsNoInput) {
+  TestMachine machine;
+  EXPECT_THAT(stream(run(machine, "G31 X20 F100 M98 P200\nM30\nO200\nG0 Y1\nM99\n")),
+              testing::ElementsAre("skip1 X20 F100", "rapid X20 Y1", "end 30"));
+  EXPECT_EQ(run(machine, "G31 L2 P3 X20 F100\n").alarm.number, AlarmNumber::unused_word);
+}
+
 TEST(Skip, WithoutAWayThereIsNothingToWaitFor) {
   TestMachine machine;
   StringSource text("G31 X0 F1\nG0 X1\n");

@@ -31,6 +31,8 @@ struct TestMachine : Environment {
   double factor_unit = 1;
   CutterSettings cutter;
   CycleSettings cycles;
+  std::array<SkipSettings, 3> skips{{{2, 0}, {3, 0}, {4, 0}}};
+  LengthMeasuring measuring;
   std::uint16_t axis_mask = 0b111111111;
   std::optional<std::uint16_t> spindles;  // nothing: every letter that is no axis
   double deviation = 0.1;
@@ -77,6 +79,8 @@ struct TestMachine : Environment {
   CutterSettings cutter_settings() const override { return cutter; }
   canonical::RotaryWay rotary_way(std::size_t axis) const override { return ways[axis]; }
   CycleSettings cycle_settings() const override { return cycles; }
+  SkipSettings skip_settings(std::uint32_t number) const override { return skips.at(number - 1); }
+  LengthMeasuring length_measuring() const override { return measuring; }
   const MFunctions* m_functions() const override { return functions ? &*functions : nullptr; }
   DwellPoint dwell_point() const override { return point; }
   TwoToolWords two_tool_words() const override { return two_tools; }

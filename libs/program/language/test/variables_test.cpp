@@ -94,6 +94,25 @@ TEST(SystemVariables, LengthsAreInTheUnitsOfTheProgram) {
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(inches[i], expected[i], 1e-12) << i;
 }
 
+TEST(SystemVariables, RadiusOfTheActiveDHasItsWear) {
+  TestMachine machine;
+  machine.tools[1] = {50, 0, 5, 0.25};
+  machine.tools[2] = {50, 0, std::nullopt, 0};
+  EXPECT_THAT(values(machine, "D1", {"#4207", "[#4207 EQ #0]"}), ElementsAre(5.25, 0));
+  EXPECT_THAT(values(machine, "G0 X1", {"#4207", "[#4207 EQ #0]"}), ElementsAre(0, 0)) << "no D: 0";
+  EXPECT_THAT(values(machine, "D2", {"[#4207 EQ #0]"}), ElementsAre(1)) << "vacant";
+  EXPECT_THAT(values(machine, "G20 D1", {"#4207*25.4"}), ElementsAre(testing::DoubleEq(5.25)));
+  machine.cutter.wear_sign = -1;
+  EXPECT_THAT(values(machine, "D1", {"#4207"}), ElementsAre(4.75));
+}
+
+TEST(SystemVariables, PositionOfAnAxisThatTheChannelDoesNotHaveIsVacant) {
+  TestMachine machine;
+  machine.axis_mask = 0b101111;  // no B
+  EXPECT_THAT(values(machine, "G0 X1", {"#5021", "[#5024 EQ #0]", "[#5025 EQ #0]", "[#5026 EQ #0]"}),
+              ElementsAre(1, 0, 1, 0));
+}
+
 TEST(SystemVariables, ModalStateOfTheBlocksBefore) {
   TestMachine machine;
   machine.lengths = {{3, 50}};

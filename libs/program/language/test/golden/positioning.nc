@@ -47,3 +47,9 @@ G92 S3000
 G20 G96 S100
 (=== limit of the spindle moves nothing)
 G92 S3000
+(=== the skip input by P)
+G31 P3 X20 F100
+(=== skip moves with inputs of their own)
+F100 G31.1 X5
+G31.2 X10
+G31.3 X20 F50

@@ -31,3 +31,6 @@ G0 Z10
 M3 G87 X0 Z-5 R-20 Q0.5 F100
 (=== the shift takes the letters of the plane: K and I in ZX)
 G18 G99 G76 Y-5 R2 K0.25 I0.5 F100
+(=== G84.2 and G84.3 are G84 and G74)
+G95 S400 F1.5 G99 G84.2 X0 Z-5 R2
+G84.3 X1
