@@ -59,6 +59,18 @@ language::MFunctions m_functions(const machine::Parameters& p, std::uint32_t cha
   return functions;
 }
 
+language::NameDialects name_dialects(const machine::Parameters& p, std::uint32_t channel) {
+  language::NameDialects dialects;
+  try {
+    dialects.add(p.text(parameter::program_dialects, channel));
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(fmt::format("parameter {} ({}): {}",
+                                         machine::number_text(parameter::program_dialects.number(channel)),
+                                         parameter::program_dialects.name, e.what()));
+  }
+  return dialects;
+}
+
 }  // namespace
 
 double TappingSpindle::acceleration_up_to(double speed) const {
@@ -82,10 +94,12 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   // What the compensation would refuse is refused here, before setpoints need it.
   compensation::ChannelCompensation::read(p, channel_);
   const auto functions = channel_setup::m_functions(p, channel_);
+  const auto dialects = channel_setup::name_dialects(p, channel_);
   const auto axes = machine::channel_axes(p, channel_);
   check_chain_axes(chain, axes, channel_);
   channel_axes_ = axes;
   m_functions_ = functions;
+  name_dialects_ = dialects;
   chain_ = chain;
   const auto drive = machine::drive_axes(p);
   columns_.clear();

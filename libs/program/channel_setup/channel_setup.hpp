@@ -16,6 +16,7 @@
 #include "geometry/chain.hpp"
 #include "geometry/direction_path.hpp"
 #include "language/environment.hpp"
+#include "language/name_dialects.hpp"
 #include "machine/axes.hpp"
 #include "machine/spindle_acceleration.hpp"
 #include "machine/stream_settings.hpp"
@@ -49,7 +50,8 @@ class ChannelSetup : public language::Environment {
   explicit ChannelSetup(const tool_tables::MachineTables& tables);
 
   /// Throws std::runtime_error when the kinematic parameters make no chain, the chain turns a letter that the
-  /// channel does not have, or the parameters of the compensation or the list of M functions are not valid.
+  /// channel does not have, or the parameters of the compensation, the list of M functions or the dialects of
+  /// names are not valid.
   void configure(const machine::Parameters& parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);
@@ -77,6 +79,14 @@ class ChannelSetup : public language::Environment {
   language::AngleMCodes angle_m_codes() const override { return angle_m_codes_; }
   language::DwellPoint dwell_point() const override { return dwell_point_; }
   language::ProgramDialect program_dialect() const override { return program_dialect_; }
+  std::optional<language::ProgramDialect> dialect_by_name(std::string_view name) const override {
+    return name_dialects_.of(name);
+  }
+  /// In place of what the parameters say for the channel and for names of programs.
+  void set_program_dialect(language::ProgramDialect dialect) {
+    program_dialect_ = dialect;
+    name_dialects_ = {};
+  }
   /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
   std::optional<double> external_parameter(std::uint32_t number) const override;
   language::ParameterChanges external_changes(std::uint32_t number, double value) const override;
@@ -182,6 +192,7 @@ class ChannelSetup : public language::Environment {
   bool plane_angles_by_p_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
   language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;
+  language::NameDialects name_dialects_;
   struct ExternalParameter {
     double value = 0;
     std::uint32_t parameter = 0;

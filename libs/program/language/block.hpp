@@ -76,9 +76,10 @@ enum class ThreadBlock : std::uint8_t {
 /// A letter except G and M occurs at most once in a block, so words are looked up by letter.
 struct Block {
   Head head = Head::none;
-  bool skipped = false;       ///< begins with / and that level is switched on; nothing else of it was read
-  bool message = false;       ///< shows the text at message_at of its line (NUM)
-  bool ends_program = false;  ///< its M2 ends the program also where it is called (NUM)
+  bool skipped = false;        ///< begins with / and that level is switched on; nothing else of it was read
+  bool message = false;        ///< shows the text at message_at of its line (NUM)
+  bool ends_program = false;   ///< its M2 ends the program also where it is called (NUM)
+  bool spindle_codes = false;  ///< its M64 to M66 choose the spindle of its S (NUM)
   bool condition = false;
   char lead_word = 'F';  ///< of threads and taps; with K (NUM), F is a feed
   ThreadBlock thread = ThreadBlock::chained;
@@ -112,7 +113,7 @@ struct Block {
   /// Makes the block empty; what is absent keeps what it had and means nothing.
   void clear() {
     head = Head::none;
-    skipped = message = ends_program = false;
+    skipped = message = ends_program = spindle_codes = false;
     lead_word = 'F';
     thread = ThreadBlock::chained;
     statement = Statement::none;

@@ -217,8 +217,7 @@ Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
 // The S of a block of the NUM dialect is for the spindle that its M64 to M66 chooses.
 bool BlockExecutor::selects_spindle(const MCode& code) const {
   constexpr std::uint16_t first_spindle = 64, last_spindle = 66;
-  return context_.environment.program_dialect() == ProgramDialect::num && code.number >= first_spindle &&
-         code.number <= last_spindle;
+  return context_.words.spindle_codes() && code.number >= first_spindle && code.number <= last_spindle;
 }
 
 Fault BlockExecutor::select_spindle() {

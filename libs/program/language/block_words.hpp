@@ -74,6 +74,8 @@ class BlockWords {
   bool has_codes() const { return block_->g_count != 0 || block_->m_count != 0; }
   /// As Block::message.
   bool shows_message() const { return block_->message; }
+  /// As Block::spindle_codes.
+  bool spindle_codes() const { return block_->spindle_codes; }
   /// As Block::called.
   std::uint32_t called() const { return block_->called; }
   /// As Block::lead_word and Block::thread.

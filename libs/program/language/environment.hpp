@@ -68,9 +68,6 @@ struct TravelBreach {
   double position = 0;
 };
 
-/// How programs are written (parameter 04c959).
-enum class ProgramDialect : std::uint8_t { iso, num };
-
 /// Parameters of the machine and what they become.
 struct ParameterChanges {
   struct Change {
@@ -94,8 +91,13 @@ class Environment {
   /// Machine coordinates of the zero of work offset `index`: 0 = G54 .. 5 = G59, 6 = G54.1 P1 .. 53 = G54.1
   /// P48; mm and degrees.
   virtual AxisValues work_offset(std::uint8_t index) const = 0;
-  /// Of every program and every line of manual data input of the channel.
+  /// Of lines of manual data input, and of programs whose head and name choose none (parameter 04c959).
   virtual ProgramDialect program_dialect() const { return ProgramDialect::iso; }
+  /// That of stored programs of such a name (parameter 04c800); nothing when the name chooses none.
+  virtual std::optional<ProgramDialect> dialect_by_name(std::string_view name) const {
+    static_cast<void>(name);
+    return std::nullopt;
+  }
   /// External parameter `number` of the NUM dialect, in the unit of its row in num_parameters.hpp; nothing
   /// when the machine does not have it.
   virtual std::optional<double> external_parameter(std::uint32_t number) const {

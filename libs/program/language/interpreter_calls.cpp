@@ -59,17 +59,20 @@ Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
   search_.purpose = Purpose::program;
   search_.wanted = call.number;
   search_.source = cycle ? environment_.subprogram(ProgramName(cycle_file).view()) : caller;
+  search_.dialect = dialect_name_;
   if (search_.source == nullptr) return fail(not_found_);
+  if (cycle && search_.source != caller) return read_head(*search_.source, cycle_file, Heading::Then::search);
   reader_.seek(*search_.source, {});
   return State::searching;
 }
 
-Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program, TextPosition top) {
+Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program, TextPosition top,
+                                      ProgramDialect dialect) {
   Found& entry = found_[next_found_];
   next_found_ = (next_found_ + 1) % found_.size();
   const std::uint32_t repetitions = call_.number == called_ ? 0 : call_.repetitions;
-  entry = {
-      levels_[depth_].source, called_, repetitions, call_.kind == CallKind::cycle, &source, program, top};
+  const bool cycle = call_.kind == CallKind::cycle;
+  entry = {levels_[depth_].source, called_, repetitions, cycle, &source, program, top, dialect};
   return enter(entry);
 }
 
@@ -84,6 +87,8 @@ Interpreter::State Interpreter::enter(const Found& target) {
   level.started = false;
   level.own_variables = call_.kind != CallKind::subprogram;
   level.modal = call_.kind == CallKind::modal_macro || call_.kind == CallKind::block_macro;
+  level.dialect = target.dialect;
+  use_dialect(level.dialect);
   level.open.clear();
   if (level.own_variables) variables_.enter(arguments_);
   if (level.modal) level.modal_above = modal_calls_.enter();
@@ -138,6 +143,7 @@ Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::st
   }
   --depth_;
   const CallLevel& caller = levels_[depth_];
+  use_dialect(caller.dialect);
   reader_.seek(*caller.source, caller.resume);
   if (!flow.to_label) return State::running;
   const auto* const known =

@@ -90,6 +90,7 @@ Interpreter::State Interpreter::search(Purpose purpose, std::uint32_t wanted, Te
   const CallLevel& level = levels_[depth_];
   search_.purpose = purpose;
   search_.source = level.source;
+  search_.dialect = dialect_name_;
   search_.wanted = wanted;
   search_.from = from;
   search_.from_top = false;
@@ -112,11 +113,12 @@ Interpreter::State Interpreter::search_line(Step& step) {
   const LineReader::Status status = reader_.next(line);
   if (status == LineReader::Status::end) return search_ended();
   if (status != LineReader::Status::line) return report_line_status(status, step);
-  const Outline outline = dialect_->outline(line, options_.block_skip);
+  const Dialect& dialect = search_.dialect == dialect_name_ ? *dialect_ : dialect_of(search_.dialect);
+  const Outline outline = dialect.outline(line, options_.block_skip);
   if (search_.purpose == Purpose::program) {
     if (outline.head != Head::program || outline.program_number != search_.wanted) return State::searching;
     const bool cycle = call_.kind == CallKind::cycle;
-    return found(*search_.source, cycle ? cycle_file : levels_[depth_].program, position);
+    return found(*search_.source, cycle ? cycle_file : levels_[depth_].program, position, search_.dialect);
   }
   if (search_.purpose == Purpose::label) {
     // What lies between the top and the jump is this program, its head included.
@@ -177,7 +179,7 @@ Interpreter::State Interpreter::label_found(TextPosition position) {
 Interpreter::State Interpreter::search_ended() {
   if (search_.purpose == Purpose::program && call_.kind != CallKind::cycle) {
     TextSource* const other = environment_.subprogram(ProgramName(call_.number).view());
-    if (other != nullptr) return found(*other, call_.number, {});
+    if (other != nullptr) return read_head(*other, call_.number, Heading::Then::enter);
     if (rules_.homing_program != 0 && call_.number == rules_.homing_program) return home_axis();
     // The old form: the last four digits are the program, those before them count.
     constexpr std::uint32_t four_digits = 10000;

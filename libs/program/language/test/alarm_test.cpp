@@ -211,6 +211,7 @@ std::vector<Wrong> wrong_programs() {
       {variable_unknown, "#5231=1", 1, 1, ": #5231"},
       {text_behind_statement, "#3006=1 #1=2", 1, 9, ": #1"},
       {tool_undefined, "#2007=1", 1, 1, ": #2007"},
+      {dialect_unknown, "O1 (PART)\n(DIALECT: HAAZ)\nG0 X1", 2, 11, ": HAAZ"},
       {tool_unknown, "T4 M6\nT99 M6", 2, 1, ": T99"},
       {spindle_speed_above, "S50000 M3\nG4 P1 S50001", 2, 7, ": S50001, at most 50000 1/min (10a948)"},
       {spindle_speed_above, "#1=50000\nM3 S[#1+0.5]", 2, 4, ": S, at most 50000 1/min (10a948)"},

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "language/interpreter.hpp"
+#include "language/name_dialects.hpp"
 
 namespace trunnion::language::test {
 
@@ -44,6 +45,7 @@ struct TestMachine : Environment {
   std::optional<MFunctions> functions;  // nothing: every M code may stand
   DwellPoint point = DwellPoint::refused;
   ProgramDialect dialect = ProgramDialect::iso;
+  NameDialects names;
   std::map<std::uint32_t, double> external;  // parameters of the NUM dialect
   AngleMCodes angle_codes{19, -1, -1, -1};
 
@@ -79,6 +81,9 @@ struct TestMachine : Environment {
   const MFunctions* m_functions() const override { return functions ? &*functions : nullptr; }
   DwellPoint dwell_point() const override { return point; }
   ProgramDialect program_dialect() const override { return dialect; }
+  std::optional<ProgramDialect> dialect_by_name(std::string_view name) const override {
+    return names.of(name);
+  }
   std::optional<double> external_parameter(std::uint32_t number) const override {
     const auto found = external.find(number);
     return found == external.end() ? std::nullopt : std::optional(found->second);
