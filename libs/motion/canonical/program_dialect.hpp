@@ -16,6 +16,10 @@ enum class ProgramDialect : std::uint8_t { iso, num, linuxcnc, haas };
 /// In the order of the enumerators: what machine.yaml, heads of programs and `trunnion check` write.
 inline constexpr std::array<std::string_view, 4> dialect_names = {"iso", "num", "linuxcnc", "haas"};
 
+/// Before a line of manual data input that the control writes itself: such lines are ISO whatever the channel
+/// reads.
+inline constexpr std::string_view iso_head = "(DIALECT: ISO) ";
+
 constexpr std::string_view dialect_name(ProgramDialect dialect) {
   return dialect_names[static_cast<std::size_t>(dialect)];
 }

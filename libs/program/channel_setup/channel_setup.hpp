@@ -18,6 +18,7 @@
 #include "language/environment.hpp"
 #include "language/name_dialects.hpp"
 #include "machine/axes.hpp"
+#include "machine/program_number.hpp"
 #include "machine/spindle_acceleration.hpp"
 #include "machine/stream_settings.hpp"
 #include "motion/limits.hpp"
@@ -79,8 +80,9 @@ class ChannelSetup : public language::Environment {
   language::AngleMCodes angle_m_codes() const override { return angle_m_codes_; }
   language::DwellPoint dwell_point() const override { return dwell_point_; }
   language::ProgramDialect program_dialect() const override { return program_dialect_; }
+  /// What the control has stored for itself is ISO.
   std::optional<language::ProgramDialect> dialect_by_name(std::string_view name) const override {
-    return name_dialects_.of(name);
+    return machine::is_temporary(name) ? language::ProgramDialect::iso : name_dialects_.of(name);
   }
   /// In place of what the parameters say for the channel and for names of programs.
   void set_program_dialect(language::ProgramDialect dialect) {

@@ -10,8 +10,8 @@ namespace trunnion::channel_setup {
 
 /// The macro by its name: "O9960" is CYCLE9960 (docs/calibration.md), "O9801" the touches along a direction
 /// (docs/calibration-programs.md), "O9810" .. "O9819" measure workpieces (docs/measuring-cycles.md); null
-/// when the control has none of that name. A stored program of the same name goes before it. Lives as long as
-/// the process, and may be read by any thread.
+/// when the control has none of that name. ISO programs in every channel. A stored program of the same name
+/// goes before it. Lives as long as the process, and may be read by any thread.
 language::TextSource* control_macro(std::string_view name);
 
 }  // namespace trunnion::channel_setup
