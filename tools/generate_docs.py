@@ -125,7 +125,7 @@ def alarms():
 def code_tables():
     """Rows of the G codes, of the calls and of the M codes, and the files they are from."""
     g_path, m_path, calls = (f"libs/program/language/{f}" for f in ("codes.cpp", "codes.hpp", "macro_call.hpp"))
-    dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC", "num": "NUM", "g2core": "g2core"}
+    dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC", "num": "NUM", "g2core": "g2core", "haas": "Haas"}
     program = lambda text: "`" + joined(text).replace("\\n", " / ") + "`"
     shown = r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT
     g = [(int(t), group, joined(text), dialect[o], joined(since), program(example)) for t, group, text, o, since, example in
@@ -163,7 +163,7 @@ def codes():
     out = ["# G and M codes", "", f"Generated from `{g_path}`, `{m_path}` and `{calls}` by `tools/generate_docs.py`.", "", "## G codes", "",
            "A block may contain one code of each group; a second one is an alarm. Every group except *one_block* and *exact_stop* is modal: the "
            "code stays active until another code of its group. "
-           "A motion code ends a cycle. Programs of other dialects have other tables ([dialects.md](dialects.md)). *Dialect*: ISO 6983, Fanuc, HNC-8 or NUM controls, or g2core; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
+           "A motion code ends a cycle. Programs of other dialects have other tables ([dialects.md](dialects.md)). *Dialect*: ISO 6983, Fanuc, HNC-8, NUM or Haas controls, or g2core; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
     out += table(("code", "group", "meaning", "dialect", "since", "example"), [(code_name(t), *rest) for t, *rest in g])
     out += ["", "## Calls", "", "Such a code is the only code of its block; see [macros.md](macros.md) for the arguments.", ""]
     out += table(("code", "meaning", "dialect", "since", "example"), [(code_name(a) + (f" .. {code_name(b)}" if b != a else ""), *rest) for a, b, *rest in c])

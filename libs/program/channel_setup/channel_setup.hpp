@@ -89,6 +89,7 @@ class ChannelSetup : public language::Environment {
     program_dialect_ = dialect;
     name_dialects_ = {};
   }
+  bool haas_radius_offsets() const override { return haas_radius_offsets_; }
   /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
   std::optional<double> external_parameter(std::uint32_t number) const override;
   language::ParameterChanges external_changes(std::uint32_t number, double value) const override;
@@ -191,7 +192,7 @@ class ChannelSetup : public language::Environment {
   double jog_renewal_seconds_ = 0.25;
   language::ModalState power_on_;
   language::MFunctions m_functions_;
-  bool plane_angles_by_p_ = false;
+  bool plane_angles_by_p_ = false, haas_radius_offsets_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
   language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;
   language::NameDialects name_dialects_;

@@ -293,6 +293,7 @@ Fault BlockExecutor::set_flow(Flow& flow) {
 Fault BlockExecutor::set_call(Flow& flow) {
   BlockWords& words = context_.words;
   flow.kind = Flow::Kind::call;
+  flow.local = words.calls_locally();
   if (words.called() != 0) {
     flow.subprogram = words.called();
     flow.counted = true;

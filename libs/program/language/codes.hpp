@@ -44,6 +44,7 @@ enum class Origin : std::uint8_t {
   hnc,     ///< as on HNC-8 controls
   num,     ///< as on NUM controls
   g2core,  ///< as on g2core and TinyG
+  haas,    ///< as on Haas controls
 };
 
 /// What the axis words of a block with the code mean.

@@ -155,6 +155,8 @@ class Environment {
   virtual AngleMCodes angle_m_codes() const { return {19, -1, -1, -1}; }
   /// What a decimal point in the P of a dwell means (parameter 040918).
   virtual DwellPoint dwell_point() const { return DwellPoint::refused; }
+  /// Tool offsets of Haas programs are radii, not diameters (parameter 04c801, Setting 40 of a Haas control).
+  virtual bool haas_radius_offsets() const { return false; }
   /// F of a move of linear and rotary axes without tool tip control counts both (parameter 040919).
   virtual bool combined_feed() const { return true; }
   /// P of G68.2 states the kind of its angles, as on Fanuc, and not the solution of the rotary axes

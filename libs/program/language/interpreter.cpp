@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "language/haas_dialect.hpp"
 #include "language/iso_dialect.hpp"
 #include "language/num_dialect.hpp"
 #include "text/utf8.hpp"
@@ -47,7 +48,9 @@ std::size_t copy_shown(std::string_view text, std::span<char> out) {
 const Dialect& Interpreter::dialect_of(ProgramDialect name) {
   static const IsoDialect iso;
   static const NumDialect num;
+  static const HaasDialect haas;
   if (name == ProgramDialect::num) return num;
+  if (name == ProgramDialect::haas) return haas;
   return iso;
 }
 
@@ -62,7 +65,7 @@ Interpreter::Interpreter(Environment& environment, InterpreterOptions options, c
 
 void Interpreter::start(TextSource& text, const AxisValues& position, const ModalState& initial,
                         const VariableStore& variables, Beginning beginning) {
-  rules_ = dialect_->rules();
+  take_rules();
   executor_.start(position, initial, beginning);
   if (beginning == Beginning::program) {
     control_.start();
@@ -188,7 +191,13 @@ void Interpreter::use_dialect(ProgramDialect name) {
   if (chosen_ != nullptr || name == dialect_name_) return;
   dialect_name_ = name;
   dialect_ = &dialect_of(name);
+  take_rules();
+}
+
+void Interpreter::take_rules() {
   rules_ = dialect_->rules();
+  variables_.set_numbers(rules_.system_number);
+  control_.set_tool_diameters(rules_.tool_diameters && !environment_.haas_radius_offsets());
 }
 
 Interpreter::State Interpreter::read_head(TextSource& source, std::uint32_t program, Heading::Then then) {
@@ -333,10 +342,10 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   Call subprogram;
   subprogram.number = flow.subprogram;
   subprogram.repetitions = flow.repetitions;
-  subprogram.counted = flow.counted;
+  subprogram.counted = flow.counted || !rules_.number_counts;
   subprogram.offset = flow.offset;
   subprogram.program_offset = block_.offset('P');
-  return call(subprogram, line);
+  return flow.local ? call_locally(subprogram, line) : call(subprogram, line);
 }
 
 void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {

@@ -149,7 +149,8 @@ class Interpreter {
   struct CallLevel {
     TextSource* source = nullptr;
     std::uint32_t program = 0;
-    TextPosition top;             // first line of the program
+    TextPosition top;             // first line of what is called
+    TextPosition home;            // first line of the program that it is in
     TextPosition resume;          // where the caller continues
     std::uint32_t call_line = 0;  // of the caller
     std::uint32_t remaining = 0;  // repetitions after this one
@@ -166,15 +167,17 @@ class Interpreter {
     std::uint32_t number = 0;       // as it was called
     std::uint32_t repetitions = 0;  // when the number holds them
     bool cycle = false;
+    bool local = false;  // the number is a sequence number of the program at `home`
     TextSource* source = nullptr;
     std::uint32_t program = 0;
-    TextPosition top;
+    TextPosition top, home;
     ProgramDialect dialect = ProgramDialect::iso;
   };
   enum class State : std::uint8_t { running, heading, searching, done, failed };
   enum class Purpose : std::uint8_t {
     program,  ///< the head of a program
     label,    ///< a sequence number
+    local,    ///< the sequence number at which a called part of the program begins
     branch,   ///< ELSEIF, ELSE or ENDIF of the innermost IF
     end,      ///< the end of the innermost structure
   };
@@ -201,6 +204,7 @@ class Interpreter {
   };
 
   void use_dialect(ProgramDialect name);
+  void take_rules();
   State read_head(TextSource& source, std::uint32_t program, Heading::Then then);
   State head_line(Step& step);
   State head_ended(ProgramDialect dialect);
@@ -234,11 +238,14 @@ class Interpreter {
   bool structure_found(Statement statement) const;
   State search_ended();
   static std::uint64_t key(Purpose purpose, std::uint32_t wanted) {
-    return (std::uint64_t{wanted} << 2) | static_cast<std::uint64_t>(purpose);
+    return (std::uint64_t{wanted} << 3) | static_cast<std::uint64_t>(purpose);
   }
 
   State call_macro(Call& call, std::string_view line);
   State call(const Call& call, std::string_view line);
+  /// What begins at sequence number `call.number` of this program.
+  State call_locally(const Call& call, std::string_view line);
+  void begin_call(const Call& call);
   State found(TextSource& source, std::uint32_t program, TextPosition top, ProgramDialect dialect);
   State enter(const Found& target);
   /// The axis whose number is in L0: X Y Z U V W A B C.

@@ -40,16 +40,33 @@ Interpreter::State Interpreter::call_cycle(std::string_view line) {
   return this->call(call, line);
 }
 
-Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
-  if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
+void Interpreter::begin_call(const Call& call) {
   call_ = call;
   called_ = call.number;
   after_call_ = reader_.position();
   call_line_ = line_;
+}
+
+Interpreter::State Interpreter::call_locally(const Call& call, std::string_view line) {
+  if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
+  begin_call(call);
+  const CallLevel& level = levels_[depth_];
+  for (const Found& known : found_) {
+    if (known.local && known.caller == level.source && known.number == call.number &&
+        known.home.offset == level.home.offset)
+      return enter(known);
+  }
+  return jump(Purpose::local, call.number, position_, {AlarmNumber::label_missing, call.program_offset},
+              line);
+}
+
+Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
+  if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
+  begin_call(call);
   const bool cycle = call.kind == CallKind::cycle;
   TextSource* const caller = levels_[depth_].source;
   for (const Found& known : found_) {
-    if (known.caller == caller && known.number == call.number && known.cycle == cycle &&
+    if (!known.local && known.caller == caller && known.number == call.number && known.cycle == cycle &&
         (known.repetitions == 0 || !call.counted))
       return enter(known);
   }
@@ -72,7 +89,17 @@ Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program,
   next_found_ = (next_found_ + 1) % found_.size();
   const std::uint32_t repetitions = call_.number == called_ ? 0 : call_.repetitions;
   const bool cycle = call_.kind == CallKind::cycle;
-  entry = {levels_[depth_].source, called_, repetitions, cycle, &source, program, top, dialect};
+  const bool local = search_.purpose == Purpose::local;
+  entry = {levels_[depth_].source,
+           called_,
+           repetitions,
+           cycle,
+           local,
+           &source,
+           program,
+           top,
+           local ? levels_[depth_].home : top,
+           dialect};
   return enter(entry);
 }
 
@@ -82,6 +109,7 @@ Interpreter::State Interpreter::enter(const Found& target) {
   level.source = target.source;
   level.program = target.program;
   level.top = target.top;
+  level.home = target.home;
   level.call_line = call_line_;
   level.remaining = (target.repetitions != 0 && !call_.counted ? target.repetitions : call_.repetitions) - 1;
   level.started = false;

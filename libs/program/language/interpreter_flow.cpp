@@ -77,7 +77,7 @@ Interpreter::State Interpreter::jump(Purpose purpose, std::uint32_t wanted, Text
   if (known != nullptr) return arrive(*known);
   char label[16] = "";
   Fault fault = in_vain;
-  if (purpose == Purpose::label) {
+  if (purpose == Purpose::label || purpose == Purpose::local) {
     std::snprintf(label, sizeof label, "N%u", wanted);
     fault.detail = label;
   }
@@ -120,7 +120,7 @@ Interpreter::State Interpreter::search_line(Step& step) {
     const bool cycle = call_.kind == CallKind::cycle;
     return found(*search_.source, cycle ? cycle_file : levels_[depth_].program, position, search_.dialect);
   }
-  if (search_.purpose == Purpose::label) {
+  if (search_.purpose == Purpose::label || search_.purpose == Purpose::local) {
     // What lies between the top and the jump is this program, its head included.
     if (search_.from_top ? position.offset > search_.from.offset : outline.head != Head::none)
       return search_ended();
@@ -169,6 +169,10 @@ bool Interpreter::structure_found(Statement statement) const {
 }
 
 Interpreter::State Interpreter::label_found(TextPosition position) {
+  if (search_.purpose == Purpose::local) {
+    if (search_.open.size() != 0) return fail(not_allowed_);
+    return found(*search_.source, levels_[depth_].program, position, search_.dialect);
+  }
   const std::size_t common = levels_[depth_].open.common(search_.open);
   if (common != search_.open.size()) return fail(not_allowed_);
   const JumpCache::Target target{position, common, false, search_.open.divided()};
@@ -196,10 +200,11 @@ Interpreter::State Interpreter::search_ended() {
     search_.open.close_divided();
     if (search_.open.size() < search_.depth) return end_of_text();
   }
-  if (search_.purpose != Purpose::label || search_.from_top) return fail(not_found_);
+  const bool labelled = search_.purpose == Purpose::label || search_.purpose == Purpose::local;
+  if (!labelled || search_.from_top) return fail(not_found_);
   search_.from_top = true;
   search_.open.clear();
-  reader_.seek(*search_.source, levels_[depth_].top);
+  reader_.seek(*search_.source, levels_[depth_].home);
   return State::searching;
 }
 

@@ -20,6 +20,7 @@ struct CycleWords {
   bool has_r = false;
   std::array<double, 2> shift{};   ///< of G76 and G87, mm in the plane
   std::uint32_t tapping_axis = 0;  ///< as Command::number of kind tap
+  double retract_multiple = 1;     ///< of S, when a tap comes out of its hole (Haas)
 };
 
 /// What only few blocks change.

@@ -46,6 +46,7 @@ struct TestMachine : Environment {
   DwellPoint point = DwellPoint::refused;
   ProgramDialect dialect = ProgramDialect::iso;
   NameDialects names;
+  bool radius_offsets = false;  // of Haas programs
   std::map<std::uint32_t, double> external;  // parameters of the NUM dialect
   AngleMCodes angle_codes{19, -1, -1, -1};
 
@@ -81,6 +82,7 @@ struct TestMachine : Environment {
   const MFunctions* m_functions() const override { return functions ? &*functions : nullptr; }
   DwellPoint dwell_point() const override { return point; }
   ProgramDialect program_dialect() const override { return dialect; }
+  bool haas_radius_offsets() const override { return radius_offsets; }
   std::optional<ProgramDialect> dialect_by_name(std::string_view name) const override {
     return names.of(name);
   }
