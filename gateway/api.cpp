@@ -118,7 +118,7 @@ void Api::carry_out(const Match& match, const RequestText& request, const Respon
       case Operation::remove_tool:
         return send_parameters(match, {}, request, respond);
       case Operation::check:
-        return check(match, body, respond);
+        return check(match, query, body, respond);
       case Operation::plan_program:
         return plan(match, query, respond);
       case Operation::remove_program:
@@ -390,12 +390,13 @@ std::uint64_t Api::stored_lately(const std::string& name) {
   return found == stored_.end() ? 0 : found->second.revision;
 }
 
-void Api::check(const Match& match, const std::string& text, const Respond& respond) {
+void Api::check(const Match& match, const std::string& query, const std::string& text,
+                const Respond& respond) {
   const auto number = path_number(match.parts.at(0), 31);
   const auto cluster = mailbox_.newest();
   if (!cluster || !number || !cluster->channels.contains(static_cast<std::uint16_t>(*number)))
     return respond(error_answer(404, "no channel " + match.parts[0]));
-  checker_.submit({text, static_cast<std::uint16_t>(*number), cluster, respond});
+  checker_.submit({text, query_value(query, "name"), static_cast<std::uint16_t>(*number), cluster, respond});
 }
 
 void Api::plan(const Match& match, const std::string& query, const Respond& respond) {

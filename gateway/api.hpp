@@ -93,7 +93,7 @@ class Api {
                                 idl::parameters::ParameterRequest& request) const;
   void send_program(const idl::program::ProgramRequest& request, const Respond& respond);
   void remove_program(const std::string& name, const Respond& respond);
-  void check(const Match& match, const std::string& text, const Respond& respond);
+  void check(const Match& match, const std::string& query, const std::string& text, const Respond& respond);
   void plan(const Match& match, const std::string& query, const Respond& respond);
 
   Mailbox& mailbox_;

@@ -8,12 +8,15 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/check_program.hpp"
 #include "analysis/default_machine.hpp"
 #include "analysis/json_lines.hpp"
 #include "analysis/program_folders.hpp"
+#include "canonical/program_dialect.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "cluster/cluster_files.hpp"
 #include "collision_machine.hpp"
@@ -26,6 +29,7 @@ struct CheckOptions {
   std::string program;
   std::string machine;
   std::string tools;
+  std::string dialect;  ///< empty: that of the machine, without one ISO
   bool skip_blocks = false;
   bool json_lines = false;
   std::optional<tool_tables::MachineTables> active;  ///< of a running machine, in place of its folder's
@@ -75,15 +79,18 @@ int run_check(const CheckOptions& options) {
     return program == 0 ? options.program : programs.path(language::ProgramName(program).view());
   };
   analysis::CheckOptions check_options{options.json_lines, options.skip_blocks};
+  const auto dialect = canonical::dialect_named(options.dialect);
   bool good = false;
   if (options.machine.empty()) {
     analysis::DefaultMachine machine(rows);
     machine.resolve = resolve;
+    if (dialect) machine.dialect = *dialect;
     good = analysis::check_program(text, machine, {}, check_options, name, std::cout);
   } else {
     const auto tables = options.active ? *options.active : tool_tables::load_machine_tables(directory);
     channel_setup::ChannelSetup machine(tables);
     machine.resolve = resolve;
+    if (dialect) machine.set_program_dialect(*dialect);
     if (rows) machine.set_tools(tool_table(*rows));
     const auto guard = collision_guard::load_guard(machine, directory, tables.parameters, 0);
     check_options.guard = guard.get();
@@ -130,6 +137,12 @@ void add_check_command(CLI::App& app, Common& common) {
   command->add_option(
       "--tools", options->tools,
       "CSV file number,length,radius in place of the tools; without it and a machine every tool is 0 long");
+  std::vector<std::string> names(canonical::dialect_names.begin(), canonical::dialect_names.end());
+  command
+      ->add_option("--dialect", options->dialect,
+                   "Dialect of programs whose head names none, in place of that of the machine; iso when "
+                   "neither is named")
+      ->check(CLI::IsMember(names));
   command->add_flag("--skip-blocks", options->skip_blocks, "Leave out blocks that begin with /");
   command->add_flag("--jsonl", options->json_lines, "One JSON object per motion instead of a summary");
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bus/json.hpp"
+#include "canonical/program_dialect.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "cluster/operating_station.hpp"
@@ -51,14 +52,17 @@ SpindleStatus await_coupling(cluster::Client& client, const CouplingOrder& order
 
 int couple_spindles(const Common& common, const std::string& word, const std::vector<std::string>& arguments,
                     std::uint16_t channel, bool take_over) {
-  constexpr int num_dialect = 1;  // of 04c959
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
   const auto parameters = machine::parameters_of(client.newest(topics::parameter_set));
   const auto machine_spindles = machine::spindles(parameters);
   const auto order = coupling_order(word, arguments, machine_spindles);
-  const auto lines =
-      order_lines(order, parameters.integer(parameter::program_dialect, channel) == num_dialect);
+  const auto dialect =
+      static_cast<canonical::ProgramDialect>(parameters.integer(parameter::program_dialect, channel));
+  const bool num = dialect == canonical::ProgramDialect::num;
+  const bool other = !num && dialect != canonical::ProgramDialect::iso;
+  auto lines = order_lines(order, num);
+  for (auto& line : lines) line.insert(0, other ? canonical::iso_head : "");
   const cluster::OperatingStation station(cluster.run.domain, take_over);
   for (const auto& line : lines) run_line(client, channel, line, longest_order);
   const auto slave = await_coupling(client, order, machine_spindles);

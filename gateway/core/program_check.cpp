@@ -121,6 +121,7 @@ Json check_program(language::TextSource& text, channel_setup::ChannelSetup& mach
   const auto ending = reader->read(text, machine.reference_position());
   const bool whole = ending == Ending::end || ending == Ending::repeats || ending == Ending::alarm;
   Json answer = {{"complete", whole}};
+  answer["dialect"] = std::string(canonical::dialect_name(reader->interpreter().dialect()));
   if (ending == Ending::alarm) answer["error"] = error_of(*reader);
   answer["blocks"] = reader->interpreter().blocks();
   answer["moves"] = moved;

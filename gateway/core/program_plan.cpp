@@ -92,6 +92,7 @@ Json plan_document(language::TextSource& text, channel_setup::ChannelSetup& mach
       text, machine, machine.reference_position(), take,
       [&](const language::Command&, const analysis::FrameMoves&) { ++moves; }, most_cycles, nullptr, stop);
   Json answer = {{"complete", !result.stopped}};
+  answer["dialect"] = std::string(canonical::dialect_name(result.dialect));
   if (!result.good && !result.stopped) answer["alarm"] = result.alarm;
   answer["seconds"] = rounded(seconds, second_decimals);
   answer["moves"] = moves;

@@ -36,7 +36,7 @@ Answer ProgramChecker::run(const Job& job) {
     StoredTexts texts(mailbox_);
     machine.resolve = [&texts](std::string_view name) { return texts.find(name); };
     const auto guard = collision_guard::load_guard(machine, machine_directory_, *cluster.values, job.channel);
-    language::StringSource text(job.text);
+    language::StringSource text(job.text, job.name);
     const auto until = Clock::now() + std::chrono::duration<double>(longest);
     auto answer = json_answer(
         200, check_program(text, machine, guard.get(), [&] { return stopping_ || Clock::now() > until; }));

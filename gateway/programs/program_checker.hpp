@@ -21,6 +21,7 @@ class ProgramChecker {
 
   struct Job {
     std::string text;
+    std::string name;  ///< under which it is or will be stored; empty: under none
     std::uint16_t channel = 0;
     std::shared_ptr<const ClusterState> cluster;
     Respond respond;

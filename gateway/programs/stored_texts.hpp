@@ -25,6 +25,7 @@ class StoredTexts {
     language::ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {
       return language::StringSource(bytes).read(offset, buffer, capacity);
     }
+    std::string_view name() const override { return entry.name; }
   };
 
   explicit StoredTexts(Mailbox& mailbox) : mailbox_(mailbox) {}

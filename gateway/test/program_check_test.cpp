@@ -45,6 +45,13 @@ TEST_F(ProgramCheck, TheFirstErrorHasLineColumnNumberAndText) {
   EXPECT_EQ(answer["moves"], 1) << "what is before the error is on the path";
 }
 
+TEST_F(ProgramCheck, SaysInWhichDialectTheTextIsRead) {
+  EXPECT_EQ(check("G0 X0\nM30\n")["dialect"], "iso");
+  const auto num = check("(DIALECT: NUM)\nG4 F2\nM2\n");
+  EXPECT_EQ(num["dialect"], "num");
+  EXPECT_FALSE(num.contains("error")) << num["error"];
+}
+
 TEST_F(ProgramCheck, AMoveBeyondTheTravelIsTheErrorOfItsLine) {
   const auto answer = check("G54 G0 X0\n\nG0 X9000\n");
   ASSERT_TRUE(answer.contains("error"));

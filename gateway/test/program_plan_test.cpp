@@ -42,6 +42,11 @@ TEST_F(ProgramPlan, HasTheTimeOfTheMotionLineByLine) {
   EXPECT_EQ(path["rapid"][1], true);
 }
 
+TEST_F(ProgramPlan, SaysInWhichDialectTheTextIsRead) {
+  EXPECT_EQ(plan("G0 X1\nM30\n")["dialect"], "iso");
+  EXPECT_EQ(plan("(DIALECT: HAAS)\nG0 X1.\nM30\n")["dialect"], "haas");
+}
+
 TEST_F(ProgramPlan, EndsAtTheLineThatCannotBeExecutedAndSaysWhy) {
   const auto answer = plan("G54 G0 X0 Y0\nG1 X60 F600\nG1 X9000\nG1 X0\n");
   ASSERT_TRUE(answer.contains("alarm"));

@@ -86,8 +86,9 @@ export const upload = (name: string, file: Blob) =>
 export const storeProgram = (name: string, content: string, revision: number) =>
   call<Stored>("PUT", `/api/programs/${encodeURIComponent(name)}`, content, "text/plain",
     revision > 0 ? { "If-Match": `"${revision}"` } : { "If-None-Match": "*" });
-export const checkProgram = (channel: number, content: string) =>
-  call<ProgramCheck>("POST", `/api/check/${channel}`, content, "text/plain");
+/** `name`: under which the text is or will be stored. */
+export const checkProgram = (channel: number, content: string, name: string) =>
+  call<ProgramCheck>("POST", `/api/check/${channel}?name=${encodeURIComponent(name)}`, content, "text/plain");
 
 export interface StoredText {
   revision: number;

@@ -35,6 +35,10 @@ test("codes that the control does not have are marked", () => {
   expect(explainedAt("N1 G43.4 H1", 9)).toBeUndefined();
 });
 
+test("the codes of other dialects are not marked", () => {
+  expect(tokens("G999 M1000", false).map(({ kind }) => kind)).toEqual(["code", "code"]);
+});
+
 test("the tokens of any line are ascending and inside it", () => {
   let seed = 7;
   const random = (n: number) => (seed = (seed * 48271) % 2147483647) % n;

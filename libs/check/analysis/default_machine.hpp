@@ -29,7 +29,9 @@ class DefaultMachine : public language::Environment {
 
   /// Finds the texts of subprograms; null when there are none.
   std::function<language::TextSource*(std::string_view)> resolve;
+  language::ProgramDialect dialect = language::ProgramDialect::iso;
 
+  language::ProgramDialect program_dialect() const override { return dialect; }
   language::AxisValues work_offset(std::uint8_t) const override { return {}; }
   std::optional<double> tool_length(std::uint16_t h) const override;
   std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;

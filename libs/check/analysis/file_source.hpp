@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "language/text_source.hpp"
 
@@ -17,6 +18,9 @@ class FileSource final : public language::TextSource {
   FileSource& operator=(const FileSource&) = delete;
 
   language::ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override;
+  std::string_view name() const override {
+    return std::string_view(path_).substr(path_.find_last_of('/') + 1);
+  }
   const std::string& path() const { return path_; }
 
  private:

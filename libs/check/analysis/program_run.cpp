@@ -41,7 +41,9 @@ class Runner final : public program_execution::ProgramMotion {
 
   ProgramResult run(language::TextSource& text, const AxisValues& start) {
     frame_.start = start;
-    switch (reader_.read(text, start)) {
+    const Ending ending = reader_.read(text, start);
+    result_.dialect = reader_.interpreter().dialect();
+    switch (ending) {
       case Ending::end:
       case Ending::repeats:
         result_.good = true;

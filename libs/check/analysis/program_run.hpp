@@ -36,6 +36,7 @@ struct ProgramResult {
   std::string alarm;         ///< one line, empty when good
   std::uint64_t blocks = 0;  ///< moves and dwells planned
   std::uint64_t cycles = 0;
+  language::ProgramDialect dialect = language::ProgramDialect::iso;  ///< of the text
 };
 
 /// A rapid, line, arc or dwell.

@@ -7,6 +7,7 @@
 
 #include "machine/chain_section.hpp"
 #include "machine/collision_mode.hpp"
+#include "machine/dialect_section.hpp"
 #include "machine/gateway_loss.hpp"
 #include "machine/gateway_settings.hpp"
 #include "machine/kinematics.hpp"
@@ -87,6 +88,8 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                                    "hardware",
                                    "hal",
                                    "collision",
+                                   "dialect",
+                                   "program_dialects",
                                    "gateway_loss",
                                    "hosts",
                                    "network",
@@ -180,6 +183,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
     if (!there && definition.required)
       throw std::runtime_error(at(file, services) + "service '" + definition.name + "' is missing");
   }
+  config.dialect_parameters = read_dialect_parameters(document, file, config.channels);
   return config;
 }
 
@@ -218,6 +222,7 @@ std::map<std::uint32_t, ParameterValue> machine_parameters(const MachineConfig& 
   if (const auto fault = chain_conflict(values, config))
     throw std::runtime_error(config.parameters_file() + ": error: " + fault->text);
   values.insert(config.chain_parameters.begin(), config.chain_parameters.end());
+  values.insert(config.dialect_parameters.begin(), config.dialect_parameters.end());
   return values;
 }
 

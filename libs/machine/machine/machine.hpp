@@ -55,6 +55,8 @@ struct MachineConfig {
   /// Where executables for a swap may be, besides the directory of the launcher itself.
   std::vector<std::string> swap_directories;
   std::map<std::uint32_t, ParameterValue> chain_parameters;  ///< what the section `chains` comes to
+  /// What `dialect` and `program_dialects` come to; a channel's own value in parameters.yaml goes before.
+  std::map<std::uint32_t, ParameterValue> dialect_parameters;
 
   std::string parameters_file() const { return directory + "/parameters.yaml"; }
   std::string programs_directory() const { return directory + "/programs"; }
@@ -80,7 +82,7 @@ void forget_hosts(MachineConfig& config);
 std::optional<ParameterFault> chain_conflict(const std::map<std::uint32_t, ParameterValue>& values,
                                              const MachineConfig& config);
 
-/// parameters.yaml and the chains of machine.yaml together. Throws std::runtime_error, also for a
+/// parameters.yaml with the chains and dialects of machine.yaml. Throws std::runtime_error, also for a
 /// chain_conflict().
 std::map<std::uint32_t, ParameterValue> machine_parameters(const MachineConfig& config);
 

@@ -48,6 +48,8 @@ std::optional<ProgramNumber> number_in_name(std::string_view name) {
   return program;
 }
 
+bool is_temporary(std::string_view name) { return name.ends_with(".tmp.nc"); }
+
 std::optional<ProgramNumber> number_in_head(std::string_view text) {
   if (!has_letter(text)) return std::nullopt;
   std::size_t at = 1;

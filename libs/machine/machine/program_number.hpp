@@ -19,6 +19,9 @@ struct ProgramNumber {
 /// point and one digit are an index and no extension. Nothing when the name is no number.
 std::optional<ProgramNumber> number_in_name(std::string_view name);
 
+/// A command of `trunnion` or a service has stored the program for itself: its name ends with .tmp.nc.
+bool is_temporary(std::string_view name);
+
 /// At the beginning of a text, behind O, o or %; what follows may be anything.
 std::optional<ProgramNumber> number_in_head(std::string_view text);
 

@@ -59,6 +59,18 @@ language::MFunctions m_functions(const machine::Parameters& p, std::uint32_t cha
   return functions;
 }
 
+language::NameDialects name_dialects(const machine::Parameters& p, std::uint32_t channel) {
+  language::NameDialects dialects;
+  try {
+    dialects.add(p.text(parameter::program_dialects, channel));
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(fmt::format("parameter {} ({}): {}",
+                                         machine::number_text(parameter::program_dialects.number(channel)),
+                                         parameter::program_dialects.name, e.what()));
+  }
+  return dialects;
+}
+
 }  // namespace
 
 double TappingSpindle::acceleration_up_to(double speed) const {
@@ -82,10 +94,12 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   // What the compensation would refuse is refused here, before setpoints need it.
   compensation::ChannelCompensation::read(p, channel_);
   const auto functions = channel_setup::m_functions(p, channel_);
+  const auto dialects = channel_setup::name_dialects(p, channel_);
   const auto axes = machine::channel_axes(p, channel_);
   check_chain_axes(chain, axes, channel_);
   channel_axes_ = axes;
   m_functions_ = functions;
+  name_dialects_ = dialects;
   chain_ = chain;
   const auto drive = machine::drive_axes(p);
   columns_.clear();
@@ -133,6 +147,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   jog_renewal_seconds_ = p.get(parameter::jog_renewal_time, channel_);
   plane_angles_by_p_ = p.integer(parameter::plane_angles, channel_) == 1;
   program_dialect_ = static_cast<language::ProgramDialect>(p.integer(parameter::program_dialect, channel_));
+  haas_radius_offsets_ = p.integer(parameter::haas_tool_offsets, channel_) != 0;
   dwell_point_ = static_cast<language::DwellPoint>(p.integer(parameter::dwell_point, channel_));
   two_tool_words_ = static_cast<language::TwoToolWords>(p.integer(parameter::two_tool_words, channel_));
   cycles_ = {p.get(parameter::cycle_retract, channel_), p.get(parameter::cycle_clearance, channel_),

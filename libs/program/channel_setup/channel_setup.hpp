@@ -16,7 +16,9 @@
 #include "geometry/chain.hpp"
 #include "geometry/direction_path.hpp"
 #include "language/environment.hpp"
+#include "language/name_dialects.hpp"
 #include "machine/axes.hpp"
+#include "machine/program_number.hpp"
 #include "machine/spindle_acceleration.hpp"
 #include "machine/stream_settings.hpp"
 #include "motion/limits.hpp"
@@ -49,7 +51,8 @@ class ChannelSetup : public language::Environment {
   explicit ChannelSetup(const tool_tables::MachineTables& tables);
 
   /// Throws std::runtime_error when the kinematic parameters make no chain, the chain turns a letter that the
-  /// channel does not have, or the parameters of the compensation or the list of M functions are not valid.
+  /// channel does not have, or the parameters of the compensation, the list of M functions or the dialects of
+  /// names are not valid.
   void configure(const machine::Parameters& parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);
@@ -78,6 +81,16 @@ class ChannelSetup : public language::Environment {
   language::DwellPoint dwell_point() const override { return dwell_point_; }
   language::TwoToolWords two_tool_words() const override { return two_tool_words_; }
   language::ProgramDialect program_dialect() const override { return program_dialect_; }
+  /// What the control has stored for itself is ISO.
+  std::optional<language::ProgramDialect> dialect_by_name(std::string_view name) const override {
+    return machine::is_temporary(name) ? language::ProgramDialect::iso : name_dialects_.of(name);
+  }
+  /// In place of what the parameters say for the channel and for names of programs.
+  void set_program_dialect(language::ProgramDialect dialect) {
+    program_dialect_ = dialect;
+    name_dialects_ = {};
+  }
+  bool haas_radius_offsets() const override { return haas_radius_offsets_; }
   /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
   std::optional<double> external_parameter(std::uint32_t number) const override;
   language::ParameterChanges external_changes(std::uint32_t number, double value) const override;
@@ -182,10 +195,11 @@ class ChannelSetup : public language::Environment {
   double jog_renewal_seconds_ = 0.25;
   language::ModalState power_on_;
   language::MFunctions m_functions_;
-  bool plane_angles_by_p_ = false;
+  bool plane_angles_by_p_ = false, haas_radius_offsets_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
   language::TwoToolWords two_tool_words_ = language::TwoToolWords::refused;
   language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;
+  language::NameDialects name_dialects_;
   struct ExternalParameter {
     double value = 0;
     std::uint32_t parameter = 0;

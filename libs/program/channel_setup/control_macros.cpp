@@ -2,7 +2,6 @@
 #include "channel_setup/control_macros.hpp"
 
 #include <array>
-#include <utility>
 
 namespace trunnion::channel_setup {
 
@@ -25,16 +24,18 @@ extern const char* const macro_O90370;
 extern const char* const macro_O90800;
 
 language::TextSource* control_macro(std::string_view name) {
-  using Macro = std::pair<std::string_view, language::StringSource>;
+  const auto macro = [](std::string_view own, const char* text) {
+    return language::StringSource(text, own, language::ProgramDialect::iso);
+  };
   static std::array macros{
-      Macro{"O9801", macro_O9801},   Macro{"O9810", macro_O9810},   Macro{"O9811", macro_O9811},
-      Macro{"O9812", macro_O9812},   Macro{"O9813", macro_O9813},   Macro{"O9814", macro_O9814},
-      Macro{"O9815", macro_O9815},   Macro{"O9816", macro_O9816},   Macro{"O9817", macro_O9817},
-      Macro{"O9818", macro_O9818},   Macro{"O9819", macro_O9819},   Macro{"O9960", macro_O9960},
-      Macro{"O90120", macro_O90120}, Macro{"O90150", macro_O90150}, Macro{"O90370", macro_O90370},
-      Macro{"O90800", macro_O90800}};
-  for (auto& [own, text] : macros)
-    if (own == name) return &text;
+      macro("O9801", macro_O9801),   macro("O9810", macro_O9810),   macro("O9811", macro_O9811),
+      macro("O9812", macro_O9812),   macro("O9813", macro_O9813),   macro("O9814", macro_O9814),
+      macro("O9815", macro_O9815),   macro("O9816", macro_O9816),   macro("O9817", macro_O9817),
+      macro("O9818", macro_O9818),   macro("O9819", macro_O9819),   macro("O9960", macro_O9960),
+      macro("O90120", macro_O90120), macro("O90150", macro_O90150), macro("O90370", macro_O90370),
+      macro("O90800", macro_O90800)};
+  for (auto& text : macros)
+    if (text.name() == name) return &text;
   return nullptr;
 }
 

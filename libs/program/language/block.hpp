@@ -79,10 +79,15 @@ enum class ThreadBlock : std::uint8_t {
 /// A letter except G and M occurs at most once in a block, so words are looked up by letter.
 struct Block {
   Head head = Head::none;
-  bool skipped = false;       ///< begins with / and that level is switched on; nothing else of it was read
-  bool message = false;       ///< shows the text at message_at of its line (NUM)
-  bool ends_program = false;  ///< its M2 ends the program also where it is called (NUM)
-  bool two_tools = false;     ///< T and second_tool_word
+  bool skipped = false;        ///< begins with / and that level is switched on; nothing else of it was read
+  bool message = false;        ///< shows the text at message_at of its line (NUM)
+  bool ends_program = false;   ///< its M2 ends the program also where it is called (NUM)
+  bool two_tools = false;      ///< T and second_tool_word
+  bool spindle_codes = false;  ///< its M64 to M66 choose the spindle of its S (NUM)
+  bool haas = false;        ///< words of dwells, cycles and tool offsets mean what they do on Haas controls
+  bool local_call = false;  ///< its M98 calls the program that begins at sequence number P (Haas: M97)
+  bool every_axis = false;  ///< its G28 is for all axes (Haas)
+  std::uint8_t work_offset = 0;  ///< of its G54.1, when P does not name it; 0: P does
   bool condition = false;
   char lead_word = 'F';  ///< of threads and taps; with K (NUM), F is a feed
   ThreadBlock thread = ThreadBlock::chained;
@@ -116,7 +121,8 @@ struct Block {
   /// Makes the block empty; what is absent keeps what it had and means nothing.
   void clear() {
     head = Head::none;
-    skipped = message = ends_program = two_tools = false;
+    skipped = message = ends_program = two_tools = spindle_codes = haas = local_call = every_axis = false;
+    work_offset = 0;
     lead_word = 'F';
     thread = ThreadBlock::chained;
     statement = Statement::none;
@@ -152,6 +158,9 @@ struct DialectRules {
   bool cycle_m_codes = true;           ///< the M codes of parameters 010170 .. 010177 call cycles
   std::uint32_t homing_program = 0;    ///< a call of it, unless it is stored, homes the axis of L0; 0: none
   bool text_closes_else = false;       ///< the end of a program closes an IF behind its ELSE
+  bool number_counts = true;           ///< digits before the last four of a called number may be repetitions
+  VariableNumber system_number = nullptr;  ///< as Variables::set_numbers()
+  bool tool_diameters = false;  ///< variables and G10 have diameters of tools, where the machine has so
 };
 
 /// How one dialect writes blocks. A reader hands over the codes of `g_codes` and `m_codes`, under whatever

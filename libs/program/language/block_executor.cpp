@@ -220,8 +220,7 @@ Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
 // The S of a block of the NUM dialect is for the spindle that its M64 to M66 chooses.
 bool BlockExecutor::selects_spindle(const MCode& code) const {
   constexpr std::uint16_t first_spindle = 64, last_spindle = 66;
-  return context_.environment.program_dialect() == ProgramDialect::num && code.number >= first_spindle &&
-         code.number <= last_spindle;
+  return context_.words.spindle_codes() && code.number >= first_spindle && code.number <= last_spindle;
 }
 
 Fault BlockExecutor::select_spindle() {
@@ -297,6 +296,7 @@ Fault BlockExecutor::set_flow(Flow& flow) {
 Fault BlockExecutor::set_call(Flow& flow) {
   BlockWords& words = context_.words;
   flow.kind = Flow::Kind::call;
+  flow.local = words.calls_locally();
   if (words.called() != 0) {
     flow.subprogram = words.called();
     flow.counted = true;

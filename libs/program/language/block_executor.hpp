@@ -27,6 +27,7 @@ struct Flow {
   std::uint32_t subprogram = 0;   ///< of call
   std::uint32_t repetitions = 1;  ///< of call
   bool counted = false;           ///< the repetitions were given
+  bool local = false;             ///< call of what begins at the sequence number `subprogram` of this text
   std::uint16_t offset = 0;       ///< of the M word in its line
 };
 

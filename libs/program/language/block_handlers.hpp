@@ -5,6 +5,7 @@
 #include "language/curve_motion.hpp"
 #include "language/drilling_cycles.hpp"
 #include "language/frame_codes.hpp"
+#include "language/line_tapping.hpp"
 #include "language/modal_codes.hpp"
 #include "language/num_tapping.hpp"
 #include "language/path_motion.hpp"
@@ -30,7 +31,8 @@ struct BlockHandlers {
         curve(context),
         cycles(context),
         num_tapping(context),
-        tap_removal(context) {}
+        tap_removal(context),
+        line_tapping(context) {}
 
   ModalCodes modal;
   ToolCodes tool;
@@ -44,6 +46,7 @@ struct BlockHandlers {
   DrillingCycles cycles;
   NumTapping num_tapping;
   TapRemoval tap_removal;
+  LineTapping line_tapping;
 };
 
 }  // namespace trunnion::language

@@ -20,6 +20,7 @@ void BlockWords::configure(const Environment& machine) {
   diameter_ = machine.diameter_programming();
   functions_ = machine.m_functions();
   dwell_point_ = machine.dwell_point();
+  radius_offsets_ = machine.haas_radius_offsets();
 }
 
 Fault BlockWords::begin(const Block& block) {
@@ -115,8 +116,9 @@ Fault BlockWords::dwell(double longest, double& seconds) {
   use('P');
   const double value = block_->value('P');
   const bool point = ((block_->pointed & Block::bit('P')) != 0) || value != std::floor(value);
-  if (point && dwell_point_ == DwellPoint::refused) return {AlarmNumber::dwell_point, block_->offset('P')};
-  seconds = point && dwell_point_ == DwellPoint::seconds ? value : value / 1000;
+  const DwellPoint rule = block_->haas ? DwellPoint::seconds : dwell_point_;
+  if (point && rule == DwellPoint::refused) return {AlarmNumber::dwell_point, block_->offset('P')};
+  seconds = point && rule == DwellPoint::seconds ? value : value / 1000;
   if (seconds < 0 || seconds > longest) return {AlarmNumber::value_range, block_->offset('P')};
   return {};
 }

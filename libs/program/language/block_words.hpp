@@ -76,6 +76,16 @@ class BlockWords {
   bool two_tools() const { return block_->two_tools; }
   /// As Block::message.
   bool shows_message() const { return block_->message; }
+  /// As Block::haas, Block::every_axis and Block::work_offset.
+  bool haas() const { return block_->haas; }
+  bool every_axis() const { return block_->every_axis; }
+  std::uint8_t work_offset() const { return block_->work_offset; }
+  /// As Block::local_call.
+  bool calls_locally() const { return block_->local_call; }
+  /// Radii of tools per number in the block (G10).
+  double radius_scale() const { return block_->haas && !radius_offsets_ ? 0.5 : 1.0; }
+  /// As Block::spindle_codes.
+  bool spindle_codes() const { return block_->spindle_codes; }
   /// As Block::called.
   std::uint32_t called() const { return block_->called; }
   /// As Block::lead_word and Block::thread.
@@ -129,6 +139,7 @@ class BlockWords {
   bool diameter_ = false;
   const MFunctions* functions_ = nullptr;
   DwellPoint dwell_point_ = DwellPoint::refused;
+  bool radius_offsets_ = false;
 };
 
 }  // namespace trunnion::language

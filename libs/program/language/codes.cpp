@@ -300,6 +300,14 @@ constexpr std::array rows = {
           "0.2", "G99"},
     GCode{1590, Group::one_block, AxisWords::taken, run<&BlockHandlers::positioning, &Positioning::home>,
           "as G28.2; a letter alone names an axis", Origin::num, "0.3", "G159 X Z"},
+    GCode{1740, Group::one_block, AxisWords::taken,
+          run<&BlockHandlers::line_tapping, &LineTapping::run, true>,
+          "rigid tapping along a line to X Y Z and back, left-hand thread, at S; lead as G74", Origin::haas,
+          "0.3", "S100 F100 G174 X3 Z-4"},
+    GCode{1840, Group::one_block, AxisWords::taken,
+          run<&BlockHandlers::line_tapping, &LineTapping::run, false>,
+          "rigid tapping along a line to X Y Z and back, right-hand thread, at S; lead as G84", Origin::haas,
+          "0.3", "S100 F100 G184 X3 Z-4"},
 };
 
 struct Refused {
@@ -319,7 +327,7 @@ constexpr std::array refused = {
 };
 
 constexpr std::uint8_t no_code = 0xff;
-constexpr std::size_t g_numbers = 1600;  // tenths below it can be codes
+constexpr std::size_t g_numbers = 1900;  // tenths below it can be codes
 static_assert(rows.back().tenths < g_numbers && rows.size() < no_code);
 constexpr auto g_index = [] {
   std::array<std::uint8_t, g_numbers> index{};

@@ -316,7 +316,8 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
       result = in_program_units(X, range.kind == VariableKind::length        ? tool->length
                                    : range.kind == VariableKind::length_wear ? tool->length_wear
                                    : range.kind == VariableKind::radius      ? tool->radius.value_or(0)
-                                                                             : tool->radius_wear);
+                                                                             : tool->radius_wear) *
+               tool_scale(range.kind);
       break;
     }
     case VariableKind::time_milliseconds:
@@ -453,7 +454,8 @@ Fault ControlVariables::carry_out(std::uint32_t program, std::uint32_t line, Com
                                           to_machine_units(axis, request.value), program, line, out);
     } else {
       fault = executor_.write_tool(table_of(request.kind), static_cast<std::uint16_t>(request.index + 1),
-                                   to_machine_units(X, request.value), program, line, out);
+                                   to_machine_units(X, request.value) / tool_scale(request.kind), program,
+                                   line, out);
     }
     if (fault) {
       request_count_ = 0;

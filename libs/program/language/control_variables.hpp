@@ -35,6 +35,8 @@ class ControlVariables final : public SystemVariables {
   void set_skip_position(const AxisValues& position) { skip_position_ = position; }
   /// As Interpreter::set_homed().
   void set_homed(std::optional<std::uint16_t> axes) { homed_ = axes; }
+  /// Radii of tools are read and written as diameters.
+  void set_tool_diameters(bool diameters) { diameters_ = diameters; }
   void set_modal_macro(bool active) { modal_macro_ = active; }
   /// A cycle was called (#3100) and not answered yet.
   bool needs_answer() const { return needs_answer_; }
@@ -72,6 +74,11 @@ class ControlVariables final : public SystemVariables {
   AlarmNumber homed(std::uint32_t axis, double& result) const;
   /// 1 when the axis of this address of a NUM control has no reference, else 0.
   AlarmNumber not_homed(std::uint32_t address, double& value) const;
+  /// What a program reads of a tool for 1 mm of the table.
+  double tool_scale(VariableKind kind) const {
+    const bool radius = kind == VariableKind::radius || kind == VariableKind::radius_wear;
+    return diameters_ && radius ? 2 : 1;
+  }
   double in_program_units(std::uint32_t axis, double value) const;
   double to_machine_units(std::uint32_t axis, double value) const;
   AlarmNumber ask(const VariableRange& range, std::uint32_t index, double value);
@@ -87,7 +94,7 @@ class ControlVariables final : public SystemVariables {
   double hours_zero_ = 0;
   double sequence_number_ = 0;
   std::uint32_t program_number_ = 0;
-  bool modal_macro_ = false, needs_answer_ = false;
+  bool modal_macro_ = false, needs_answer_ = false, diameters_ = false;
   double answer_ = 0;  // to the newest call of a cycle
   AxisValues skip_position_{};
   std::optional<std::uint16_t> homed_ = 0x1ff;  // at the start, bit a for Axis a

@@ -46,10 +46,10 @@ Fault DrillingCycles::run() {
 }
 
 Fault DrillingCycles::read_repeats(std::uint32_t& repeats) {
-  const bool repeats_by_k = words_.has('K') && !words_.used('K');
+  const bool repeats_by_k = !words_.haas() && words_.has('K') && !words_.used('K');
   if (repeats_by_k && words_.has('L')) return {AlarmNumber::cycle_repeats, words_.offset('L')};
   for (const char letter : {'K', 'L'}) {
-    if (!words_.has(letter) || words_.used(letter)) continue;
+    if (!words_.has(letter) || words_.used(letter) || (letter == 'K' && !repeats_by_k)) continue;
     // On other controls K is the lead.
     if (is_tapping(state_.modal.cycle) && words_.value(letter) != std::floor(words_.value(letter)))
       return {AlarmNumber::not_an_integer, words_.offset(letter), "K and L are repetitions, the lead is F"};
@@ -95,6 +95,7 @@ Fault DrillingCycles::read_cycle_words() {
     words.has_depth = true;
   }
   if (const Fault fault = read_settings(words)) return fault;
+  if (words_.haas()) return read_haas_words(words);
   return is_tapping(modal.cycle) && words_.has('J') ? read_tapping_axis(words) : Fault{};
 }
 
@@ -190,8 +191,13 @@ Fault DrillingCycles::check_levels(std::uint16_t at) const {
 Fault DrillingCycles::read_pattern(std::uint16_t at, bool may_turn, Pattern& pattern) {
   if (state_.modal.cycle == 80) return {AlarmNumber::pattern_without_cycle, at};
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  if (words_.haas() && words_.g().has(Group::cycle)) {
+    if (const Fault fault = read_cycle_words()) return fault;
+    words_.use(axis_letters[plane_axes(state_.modal.plane).normal]);
+  }
   if (const Fault fault = check_cycle(at)) return fault;
-  for (const char letter : {'I', 'J', 'K'}) {
+  const char count = words_.haas() ? 'L' : 'K';
+  for (const char letter : {'I', 'J', count}) {
     if (!words_.has(letter)) return {AlarmNumber::missing_word, at, needs(letter)};
     words_.use(letter);
   }
@@ -204,11 +210,11 @@ Fault DrillingCycles::read_pattern(std::uint16_t at, bool may_turn, Pattern& pat
   pattern.point = {place[plane.first], place[plane.second]};
   pattern.i = words_.length('I');
   pattern.j = words_.value('J');
-  const double k = words_.value('K');
-  if (k != std::floor(k)) return {AlarmNumber::not_an_integer, words_.offset('K')};
+  const double k = words_.value(count);
+  if (k != std::floor(k)) return {AlarmNumber::not_an_integer, words_.offset(count)};
   pattern.clockwise = k < 0;
   if (k == 0 || std::abs(k) > most_holes || (pattern.clockwise && !may_turn)) {
-    return {AlarmNumber::value_range, words_.offset('K')};
+    return {AlarmNumber::value_range, words_.offset(count)};
   }
   pattern.count = static_cast<std::uint32_t>(std::abs(k));
   return {};
@@ -225,9 +231,10 @@ Fault DrillingCycles::drill_circle(std::uint16_t at) {
 Fault DrillingCycles::drill_arc(std::uint16_t at) {
   Pattern p;
   if (const Fault fault = read_pattern(at, true, p)) return fault;
-  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
-  words_.use('P');
-  pattern_.circle(p.point, p.i, p.j, p.clockwise ? -words_.value('P') : words_.value('P'), p.count);
+  const char angle = words_.haas() ? 'K' : 'P';
+  if (!words_.has(angle)) return {AlarmNumber::missing_word, at, needs(angle)};
+  words_.use(angle);
+  pattern_.circle(p.point, p.i, p.j, p.clockwise ? -words_.value(angle) : words_.value(angle), p.count);
   return begin_holes();
 }
 
@@ -250,6 +257,7 @@ Fault DrillingCycles::drill_grid(std::uint16_t at) {
 }
 
 Fault DrillingCycles::begin_holes() {
+  if (const Fault fault = check_retract()) return fault;
   ModalState& modal = state_.modal;
   HoleParameters& hole = state_.change_settings().cycle.hole;
   const CycleSettings settings = environment_.cycle_settings();
@@ -321,6 +329,8 @@ Fault DrillingCycles::step(const HoleStep& step) {
       StraightMove stroke{CommandKind::tap};
       stroke.number = state_.settings().cycle.tapping_axis;
       stroke.value = lead_;
+      stroke.hole_speed = retract_speed();
+      if (step.number != 0) stroke.spindle_speed = stroke.hole_speed;
       return output_.move_straight(stroke, target);
     }
     case HoleStep::Kind::shift:

@@ -40,6 +40,13 @@ class DrillingCycles : private BlockHandler {
   Fault read_cycle_words();
   Fault read_settings(CycleWords& words);
   Fault read_tapping_axis(CycleWords& words);
+  /// I J K of pecks, and J of tapping, as Haas has them (haas_cycles.cpp).
+  Fault read_haas_words(CycleWords& words);
+  Fault read_haas_pecks(CycleWords& words);
+  /// The spindle reaches the speed at which a tap comes out.
+  Fault check_retract();
+  /// 1/min of it; 0 = S.
+  double retract_speed() const;
   Fault read_repeats(std::uint32_t& repeats);
   Fault place_holes(std::uint16_t at, std::uint32_t axes, std::uint32_t repeats, AxisValues& target);
   Fault check_cycle(std::uint16_t at) const;

@@ -95,9 +95,6 @@ struct TravelBreach {
   double position = 0;
 };
 
-/// How programs are written (parameter 04c959).
-enum class ProgramDialect : std::uint8_t { iso, num };
-
 /// Parameters of the machine and what they become.
 struct ParameterChanges {
   struct Change {
@@ -121,8 +118,13 @@ class Environment {
   /// Machine coordinates of the zero of work offset `index`: 0 = G54 .. 5 = G59, 6 = G54.1 P1 .. 53 = G54.1
   /// P48; mm and degrees.
   virtual AxisValues work_offset(std::uint8_t index) const = 0;
-  /// Of every program and every line of manual data input of the channel.
+  /// Of lines of manual data input, and of programs whose head and name choose none (parameter 04c959).
   virtual ProgramDialect program_dialect() const { return ProgramDialect::iso; }
+  /// That of stored programs of such a name (parameter 04c800); nothing when the name chooses none.
+  virtual std::optional<ProgramDialect> dialect_by_name(std::string_view name) const {
+    static_cast<void>(name);
+    return std::nullopt;
+  }
   /// External parameter `number` of the NUM dialect, in the unit of its row in num_parameters.hpp; nothing
   /// when the machine does not have it.
   virtual std::optional<double> external_parameter(std::uint32_t number) const {
@@ -182,6 +184,8 @@ class Environment {
   virtual DwellPoint dwell_point() const { return DwellPoint::refused; }
   /// What two T words in one block mean (parameter 040680).
   virtual TwoToolWords two_tool_words() const { return TwoToolWords::refused; }
+  /// Tool offsets of Haas programs are radii, not diameters (parameter 04c801, Setting 40 of a Haas control).
+  virtual bool haas_radius_offsets() const { return false; }
   /// F of a move of linear and rotary axes without tool tip control counts both (parameter 040919).
   virtual bool combined_feed() const { return true; }
   /// P of G68.2 states the kind of its angles, as on Fanuc, and not the solution of the rotary axes

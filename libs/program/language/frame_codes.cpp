@@ -21,6 +21,8 @@ Fault FrameCodes::set_work_offset(std::uint16_t at, std::uint8_t index) {
 }
 
 Fault FrameCodes::set_additional_work_offset(std::uint16_t at) {
+  if (words_.work_offset() != 0)
+    return set_work_offset(at, static_cast<std::uint8_t>(5 + words_.work_offset()));
   if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
   std::uint32_t number = 0;
   if (const Fault fault = words_.whole_number('P', 1, work_offset_count - 6, number)) return fault;

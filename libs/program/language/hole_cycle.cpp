@@ -15,6 +15,9 @@ void HoleCycle::start(const HoleParameters& parameters) {
   p_ = parameters;
   next_ = count_ = 0;
   depth_ = p_.r;
+  peck_ = p_.peck;
+  since_out_ = 0;
+  out_ = true;
   pecking_ = p_.peck > 0 && (p_.cycle == 73 || p_.cycle == 83 || p_.cycle == 74 || p_.cycle == 84);
   if (p_.cycle != 87) add(Kind::rapid, p_.r);
   if (!pecking_) add_whole_hole();
@@ -47,7 +50,7 @@ void HoleCycle::add_whole_hole() {
     case 84:
       add(Kind::tap, p_.z);
       add_dwell();
-      add(Kind::tap, p_.r);
+      add(Kind::tap, p_.r, 1);
       add_dwell();
       add_return();
       return;
@@ -93,7 +96,8 @@ void HoleCycle::add_whole_hole() {
 void HoleCycle::add_peck() {
   const double sense = p_.z < p_.r ? -1 : 1;
   const double from = depth_;
-  depth_ = sense < 0 ? std::max(depth_ - p_.peck, p_.z) : std::min(depth_ + p_.peck, p_.z);
+  depth_ = sense < 0 ? std::max(depth_ - peck_, p_.z) : std::min(depth_ + peck_, p_.z);
+  if (p_.reduction > 0) peck_ = std::max(peck_ - p_.reduction, p_.least_peck);
   // What rounding leaves below the last whole peck is no peck.
   if (std::abs(p_.z - depth_) < no_peck) depth_ = p_.z;
   // Backing out must not go past R.
@@ -103,12 +107,12 @@ void HoleCycle::add_peck() {
   const bool last = depth_ == p_.z;
   pecking_ = !last;
   const bool tapping = p_.cycle == 74 || p_.cycle == 84;
-  if (p_.cycle == 83 && from != p_.r) add(Kind::rapid, back_out(from, p_.clearance));
+  if (out_ && from != p_.r) add(Kind::rapid, back_out(from, p_.clearance));
   add(tapping ? Kind::tap : Kind::feed, depth_);
   if (last) {
     add_dwell();
     if (tapping) {
-      add(Kind::tap, p_.r);
+      add(Kind::tap, p_.r, 1);
       add_dwell();
       add_return();
     } else {
@@ -116,7 +120,9 @@ void HoleCycle::add_peck() {
     }
     return;
   }
-  if (p_.cycle == 83) {
+  since_out_ = (out_ ? 0 : since_out_) + std::abs(depth_ - from);
+  out_ = p_.cycle == 83 || (p_.between_outs > 0 && since_out_ > p_.between_outs - no_peck);
+  if (out_) {
     add(Kind::rapid, p_.r);
     return;
   }

@@ -17,7 +17,7 @@ struct HoleStep {
   enum class Kind : std::uint8_t {
     rapid,      ///< to level
     feed,       ///< to level at the programmed feed
-    tap,        ///< to level, coupled to the spindle
+    tap,        ///< to level, coupled to the spindle; number 1: out of the hole behind the last depth
     shift,      ///< in the plane, rapid, to the hole + the cycle's shift
     unshift,    ///< back to the hole
     dwell,      ///< value seconds
@@ -39,6 +39,9 @@ struct HoleParameters {
   double dwell = 0;           ///< seconds
   double retract = 0;         ///< mm, between pecks of G73 and tapping
   double clearance = 0;       ///< mm above the last depth (G83)
+  double reduction = 0;       ///< mm that each peck is smaller than the one before (Haas J)
+  double least_peck = 0;      ///< mm, of pecks that get smaller
+  double between_outs = 0;    ///< mm of G73 behind which the tool goes out to R (Haas K); 0 = it does not
   std::uint32_t restart = 3;  ///< M code that starts the spindle again: 3 or 4
 };
 
@@ -67,6 +70,9 @@ class HoleCycle {
   std::size_t count_ = 0;
   bool pecking_ = false;  // more depth is to come when the steps run out
   double depth_ = 0;      // level reached by the last peck
+  double peck_ = 0;       // mm, of the next one
+  double since_out_ = 0;  // mm drilled since the tool was at R
+  bool out_ = true;       // it is there
 };
 
 }  // namespace trunnion::language

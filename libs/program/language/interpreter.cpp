@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "language/haas_dialect.hpp"
 #include "language/iso_dialect.hpp"
 #include "language/iso_line.hpp"
 #include "language/num_dialect.hpp"
@@ -25,7 +26,9 @@ void return_at_end(Block& block) {
 const Dialect& Interpreter::dialect_of(ProgramDialect name) {
   static const IsoDialect iso;
   static const NumDialect num;
+  static const HaasDialect haas;
   if (name == ProgramDialect::num) return num;
+  if (name == ProgramDialect::haas) return haas;
   return iso;
 }
 
@@ -40,8 +43,7 @@ Interpreter::Interpreter(Environment& environment, InterpreterOptions options, c
 
 void Interpreter::start(TextSource& text, const AxisValues& position, const ModalState& initial,
                         const VariableStore& variables, Beginning beginning) {
-  dialect_ = chosen_ != nullptr ? chosen_ : &dialect_of(environment_.program_dialect());
-  rules_ = dialect_->rules();
+  take_rules();
   executor_.start(position, initial, beginning);
   if (beginning == Beginning::program) {
     control_.start();
@@ -50,8 +52,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   control_.forget_call();
   variables_.start(variables);
   control_.set_skip_position(variables_.skip_position());
-  for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i)
-    cycle_m_codes_[i] = rules_.cycle_m_codes ? environment_.cycle_m_code(i) : std::uint16_t{0};
+  for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
   queue_.clear();
   alarm_ = Alarm{};
   depth_ = 0;
@@ -67,8 +68,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   levels_[0] = CallLevel{};
   levels_[0].source = &text;
   reader_.reset();
-  reader_.seek(text, levels_[0].top);
-  state_ = State::running;
+  state_ = read_head(text, 0, Heading::Then::start);
 }
 
 Step Interpreter::next(Command& command) {
@@ -86,8 +86,13 @@ Step Interpreter::next(Command& command) {
     if (state_ == State::failed) return Step::alarm;
     if (lines == lines_per_call) return Step::working;
     queue_.clear();
-    ++lines_;
     Step step = Step::working;
+    if (state_ == State::heading) {
+      state_ = head_line(step);
+      if (step == Step::pending) return step;
+      continue;
+    }
+    ++lines_;
     const auto from = reader_.position().offset;
     const auto depth = depth_;
     state_ = state_ == State::searching ? search_line(step) : run_line(step);
@@ -161,6 +166,80 @@ Interpreter::State Interpreter::fail(const Alarm& alarm) {
   return State::failed;
 }
 
+void Interpreter::use_dialect(ProgramDialect name) {
+  if (chosen_ != nullptr || name == dialect_name_) return;
+  dialect_name_ = name;
+  dialect_ = &dialect_of(name);
+  take_rules();
+}
+
+void Interpreter::take_rules() {
+  rules_ = dialect_->rules();
+  variables_.set_numbers(rules_.system_number);
+  control_.set_tool_diameters(rules_.tool_diameters && !environment_.haas_radius_offsets());
+}
+
+Interpreter::State Interpreter::read_head(TextSource& source, std::uint32_t program, Heading::Then then) {
+  heading_ = {then, &source, program};
+  if (chosen_ != nullptr) return head_ended(ProgramDialect::iso);
+  reader_.seek(source, {});
+  return State::heading;
+}
+
+Interpreter::State Interpreter::head_line(Step& step) {
+  const std::uint32_t number = reader_.position().line;
+  std::string_view line;
+  HeadLine head{HeadLine::Kind::closed};
+  const LineReader::Status status = reader_.next(line);
+  if (status == LineReader::Status::line)
+    head = read_head_line(line);
+  else if (status != LineReader::Status::end)
+    return report_line_status(status, step);
+  // Text in front of the tape's %, as Interpreter::pass_leader().
+  if (head.kind == HeadLine::Kind::closed && status == LineReader::Status::line && passes_before_head(line))
+    return State::heading;
+  switch (head.kind) {
+    case HeadLine::Kind::open:
+      return State::heading;
+    case HeadLine::Kind::named:
+      return head_ended(head.dialect);
+    case HeadLine::Kind::unknown:
+      return fail_head(head, number, line);
+    case HeadLine::Kind::closed:
+      break;
+  }
+  const bool cycles = heading_.then == Heading::Then::search;
+  return head_ended(cycles ? ProgramDialect::iso : dialect_without_head(*heading_.source, environment_));
+}
+
+Interpreter::State Interpreter::head_ended(ProgramDialect dialect) {
+  TextSource& source = *heading_.source;
+  switch (heading_.then) {
+    case Heading::Then::enter:
+      return found(source, heading_.program, {}, dialect);
+    case Heading::Then::search:
+      search_.dialect = dialect;
+      reader_.seek(source, {});
+      return State::searching;
+    case Heading::Then::start:
+      break;
+  }
+  levels_[0].dialect = dialect;
+  use_dialect(dialect);
+  reader_.seek(source, {});
+  return State::running;
+}
+
+// The alarm is in the text that would be entered.
+Interpreter::State Interpreter::fail_head(const HeadLine& head, std::uint32_t number, std::string_view line) {
+  Alarm alarm = make_alarm({AlarmNumber::dialect_unknown, head.offset}, line, heading_.program, number);
+  const std::size_t calls = heading_.then == Heading::Then::start ? 0 : depth_ + 1;
+  alarm.calls = static_cast<std::uint8_t>(calls);
+  for (std::size_t i = 0; i < calls; ++i)
+    alarm.chain[i] = {levels_[i].program, i == depth_ ? call_line_ : levels_[i + 1].call_line};
+  return fail(alarm);
+}
+
 Interpreter::State Interpreter::run_line(Step& step) {
   position_ = reader_.position();
   std::string_view line;
@@ -222,7 +301,9 @@ Interpreter::State Interpreter::execute_words(std::string_view line) {
     message_size_ = text::copy_readable(shown.substr(block_.message_at), message_);
   }
   Call call;
-  if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);
+  static constexpr CycleMCodes no_cycles{};
+  if (find_call(block_, rules_.cycle_m_codes ? cycle_m_codes_ : no_cycles, call))
+    return call_macro(call, line);
   const auto* const modal = modal_calls_.active();
   if (modal != nullptr && modal->call.kind == CallKind::block_macro) {
     if (block_.two_tools) return fail({AlarmNumber::letter_twice, block_.offset(second_tool_word)}, line);
@@ -251,10 +332,10 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   Call subprogram;
   subprogram.number = flow.subprogram;
   subprogram.repetitions = flow.repetitions;
-  subprogram.counted = flow.counted;
+  subprogram.counted = flow.counted || !rules_.number_counts;
   subprogram.offset = flow.offset;
   subprogram.program_offset = block_.offset('P');
-  return call(subprogram, line);
+  return flow.local ? call_locally(subprogram, line) : call(subprogram, line);
 }
 
 void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {

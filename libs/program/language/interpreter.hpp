@@ -10,6 +10,7 @@
 #include "language/block_executor.hpp"
 #include "language/control_variables.hpp"
 #include "language/endless_loop.hpp"
+#include "language/head_dialect.hpp"
 #include "language/jump_cache.hpp"
 #include "language/line_reader.hpp"
 #include "language/macro_call.hpp"
@@ -51,10 +52,12 @@ inline constexpr VariableStore no_variables{};
 /// GOTO and M99 P look for N forward, then from the top of the program. While G66 is active, each block that
 /// moves, but for those of the called macro itself, is followed by the call. What the NUM dialect has instead
 /// is in num_dialect.hpp.
+///
+/// Each text is read in its own dialect, its subprograms with it: that which its head names
+/// (head_dialect.hpp), else dialect_without_head(); USERDEF.CYC is ISO when its head names none.
 class Interpreter {
  public:
-  /// `environment` and `dialect` must outlive the interpreter. Without a dialect the environment names that
-  /// of each text that is started; subprograms are written in it, too.
+  /// `environment` and `dialect` must outlive the interpreter. With a dialect every text is read in it.
   explicit Interpreter(Environment& environment, InterpreterOptions options = {},
                        const Dialect* dialect = nullptr);
   Interpreter(const Interpreter&) = delete;
@@ -109,6 +112,8 @@ class Interpreter {
   /// What the variables of time show from now on; before the first call they show zero.
   void set_time(const ControlTime& time) { control_.set_time(time); }
 
+  /// Of the started text; known with the first command or alarm.
+  ProgramDialect dialect() const { return levels_[0].dialect; }
   /// The state after the last block that was read.
   const ModalState& modal() const { return executor_.modal(); }
   const AxisValues& position() const { return executor_.position(); }
@@ -121,7 +126,8 @@ class Interpreter {
   }
   /// Blocks executed since start(), a loop's each time.
   std::uint64_t blocks() const { return blocks_; }
-  /// Lines read since start(), also those that a jump or a call has searched; a loop's each time.
+  /// Lines read since start(), also those that a jump or a call has searched; a loop's each time. Those of a
+  /// head that are read for its dialect do not count.
   std::uint64_t lines() const { return lines_; }
   const VariableStore& variables() const { return variables_.store(); }
   /// The local variables of the macro that is being read.
@@ -143,13 +149,15 @@ class Interpreter {
   struct CallLevel {
     TextSource* source = nullptr;
     std::uint32_t program = 0;
-    TextPosition top;             // first line of the program
+    TextPosition top;             // first line of what is called
+    TextPosition home;            // first line of the program that it is in
     TextPosition resume;          // where the caller continues
     std::uint32_t call_line = 0;  // of the caller
     std::uint32_t remaining = 0;  // repetitions after this one
     bool started = false;         // a head or a word has been read
     bool own_variables = false;
-    bool modal = false;           // called by G66
+    bool modal = false;  // called by G66
+    ProgramDialect dialect = ProgramDialect::iso;
     std::size_t modal_above = 0;  // of ModalCalls::enter()
     OpenStructures open;
   };
@@ -159,20 +167,35 @@ class Interpreter {
     std::uint32_t number = 0;       // as it was called
     std::uint32_t repetitions = 0;  // when the number holds them
     bool cycle = false;
+    bool local = false;  // the number is a sequence number of the program at `home`
     TextSource* source = nullptr;
     std::uint32_t program = 0;
-    TextPosition top;
+    TextPosition top, home;
+    ProgramDialect dialect = ProgramDialect::iso;
   };
-  enum class State : std::uint8_t { running, searching, done, failed };
+  enum class State : std::uint8_t { running, heading, searching, done, failed };
   enum class Purpose : std::uint8_t {
     program,  ///< the head of a program
     label,    ///< a sequence number
+    local,    ///< the sequence number at which a called part of the program begins
     branch,   ///< ELSEIF, ELSE or ENDIF of the innermost IF
     end,      ///< the end of the innermost structure
     leader,   ///< the % behind text that is no program
   };
+  /// State::heading: the head of a text is read for its dialect.
+  struct Heading {
+    enum class Then : std::uint8_t {
+      start,   ///< the text is the started one
+      enter,   ///< it is the program that is called
+      search,  ///< the program that is called is in it
+    };
+    Then then = Then::start;
+    TextSource* source = nullptr;
+    std::uint32_t program = 0;  // as Command::program
+  };
   struct Search {
     Purpose purpose = Purpose::program;
+    ProgramDialect dialect = ProgramDialect::iso;  // of the source
     TextSource* source = nullptr;
     std::uint32_t wanted = 0;
     TextPosition from;      // of the line that jumps
@@ -180,6 +203,15 @@ class Interpreter {
     std::size_t depth = 0;  // structures open at the jump
     OpenStructures open;
   };
+
+  void use_dialect(ProgramDialect name);
+  void take_rules();
+  State read_head(TextSource& source, std::uint32_t program, Heading::Then then);
+  State head_line(Step& step);
+  /// The line may be text in front of the % with which a tape begins.
+  bool passes_before_head(std::string_view line) const;
+  State head_ended(ProgramDialect dialect);
+  State fail_head(const HeadLine& head, std::uint32_t number, std::string_view line);
 
   State run_line(Step& step);
   State execute(std::string_view line);
@@ -211,14 +243,17 @@ class Interpreter {
   bool structure_found(Statement statement) const;
   State search_ended();
   static std::uint64_t key(Purpose purpose, std::uint32_t wanted) {
-    return (std::uint64_t{wanted} << 2) | static_cast<std::uint64_t>(purpose);
+    return (std::uint64_t{wanted} << 3) | static_cast<std::uint64_t>(purpose);
   }
 
   State call_macro(Call& call, std::string_view line);
   Fault carry_out_beside(const Call& call);
   void add_settings(const Call& call);
   State call(const Call& call, std::string_view line);
-  State found(TextSource& source, std::uint32_t program, TextPosition top);
+  /// What begins at sequence number `call.number` of this program.
+  State call_locally(const Call& call, std::string_view line);
+  void begin_call(const Call& call);
+  State found(TextSource& source, std::uint32_t program, TextPosition top, ProgramDialect dialect);
   State enter(const Found& target);
   /// The axis whose number is in L0: X Y Z U V W A B C.
   std::optional<std::size_t> homing_axis() const;
@@ -227,7 +262,8 @@ class Interpreter {
 
   Environment& environment_;
   const Dialect* const chosen_;
-  const Dialect* dialect_;
+  const Dialect* dialect_;  // of the text that is read
+  ProgramDialect dialect_name_ = ProgramDialect::iso;
   DialectRules rules_;
   InterpreterOptions options_;
   BlockExecutor executor_;
@@ -251,6 +287,7 @@ class Interpreter {
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
   bool had_leader_ = false;   // of the started text
+  Heading heading_;
   // A jump or a call that looks for its target, and the alarms if it is not found or not allowed.
   Search search_;
   JumpCache jumps_;

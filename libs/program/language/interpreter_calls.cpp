@@ -68,16 +68,33 @@ Interpreter::State Interpreter::call_cycle(std::string_view line) {
   return this->call(call, line);
 }
 
-Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
-  if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
+void Interpreter::begin_call(const Call& call) {
   call_ = call;
   called_ = call.number;
   after_call_ = reader_.position();
   call_line_ = line_;
+}
+
+Interpreter::State Interpreter::call_locally(const Call& call, std::string_view line) {
+  if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
+  begin_call(call);
+  const CallLevel& level = levels_[depth_];
+  for (const Found& known : found_) {
+    if (known.local && known.caller == level.source && known.number == call.number &&
+        known.home.offset == level.home.offset)
+      return enter(known);
+  }
+  return jump(Purpose::local, call.number, position_, {AlarmNumber::label_missing, call.program_offset},
+              line);
+}
+
+Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
+  if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
+  begin_call(call);
   const bool cycle = call.kind == CallKind::cycle;
   TextSource* const caller = levels_[depth_].source;
   for (const Found& known : found_) {
-    if (known.caller == caller && known.number == call.number && known.cycle == cycle &&
+    if (!known.local && known.caller == caller && known.number == call.number && known.cycle == cycle &&
         (known.repetitions == 0 || !call.counted))
       return enter(known);
   }
@@ -87,17 +104,30 @@ Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
   search_.purpose = Purpose::program;
   search_.wanted = call.number;
   search_.source = cycle ? environment_.subprogram(ProgramName(cycle_file).view()) : caller;
+  search_.dialect = dialect_name_;
   if (search_.source == nullptr) return fail(not_found_);
+  if (cycle && search_.source != caller) return read_head(*search_.source, cycle_file, Heading::Then::search);
   reader_.seek(*search_.source, {});
   return State::searching;
 }
 
-Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program, TextPosition top) {
+Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program, TextPosition top,
+                                      ProgramDialect dialect) {
   Found& entry = found_[next_found_];
   next_found_ = (next_found_ + 1) % found_.size();
   const std::uint32_t repetitions = call_.number == called_ ? 0 : call_.repetitions;
-  entry = {
-      levels_[depth_].source, called_, repetitions, call_.kind == CallKind::cycle, &source, program, top};
+  const bool cycle = call_.kind == CallKind::cycle;
+  const bool local = search_.purpose == Purpose::local;
+  entry = {levels_[depth_].source,
+           called_,
+           repetitions,
+           cycle,
+           local,
+           &source,
+           program,
+           top,
+           local ? levels_[depth_].home : top,
+           dialect};
   return enter(entry);
 }
 
@@ -107,11 +137,14 @@ Interpreter::State Interpreter::enter(const Found& target) {
   level.source = target.source;
   level.program = target.program;
   level.top = target.top;
+  level.home = target.home;
   level.call_line = call_line_;
   level.remaining = (target.repetitions != 0 && !call_.counted ? target.repetitions : call_.repetitions) - 1;
   level.started = false;
   level.own_variables = call_.kind != CallKind::subprogram;
   level.modal = call_.kind == CallKind::modal_macro || call_.kind == CallKind::block_macro;
+  level.dialect = target.dialect;
+  use_dialect(level.dialect);
   level.open.clear();
   if (level.own_variables) variables_.enter(arguments_);
   if (level.modal) level.modal_above = modal_calls_.enter();
@@ -166,6 +199,7 @@ Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::st
   }
   --depth_;
   const CallLevel& caller = levels_[depth_];
+  use_dialect(caller.dialect);
   reader_.seek(*caller.source, caller.resume);
   if (!flow.to_label) return State::running;
   const auto* const known =

@@ -85,7 +85,7 @@ Interpreter::State Interpreter::jump(Purpose purpose, std::uint32_t wanted, Text
   if (known != nullptr) return arrive(*known);
   char label[16] = "";
   Fault fault = in_vain;
-  if (purpose == Purpose::label) {
+  if (purpose == Purpose::label || purpose == Purpose::local) {
     std::snprintf(label, sizeof label, "N%u", wanted);
     fault.detail = label;
   }
@@ -98,6 +98,7 @@ Interpreter::State Interpreter::search(Purpose purpose, std::uint32_t wanted, Te
   const CallLevel& level = levels_[depth_];
   search_.purpose = purpose;
   search_.source = level.source;
+  search_.dialect = dialect_name_;
   search_.wanted = wanted;
   search_.from = from;
   search_.from_top = false;
@@ -125,13 +126,14 @@ Interpreter::State Interpreter::search_line(Step& step) {
     if (!leader.passes || position.offset > longest_leader) return fail(not_found_);
     return pass_leader(leader, position);
   }
-  const Outline outline = dialect_->outline(line, options_.block_skip);
+  const Dialect& dialect = search_.dialect == dialect_name_ ? *dialect_ : dialect_of(search_.dialect);
+  const Outline outline = dialect.outline(line, options_.block_skip);
   if (search_.purpose == Purpose::program) {
     if (outline.head != Head::program || outline.program_number != search_.wanted) return State::searching;
     const bool cycle = call_.kind == CallKind::cycle;
-    return found(*search_.source, cycle ? cycle_file : levels_[depth_].program, position);
+    return found(*search_.source, cycle ? cycle_file : levels_[depth_].program, position, search_.dialect);
   }
-  if (search_.purpose == Purpose::label) {
+  if (search_.purpose == Purpose::label || search_.purpose == Purpose::local) {
     // What lies between the top and the jump is this program, its head included.
     if (search_.from_top ? position.offset > search_.from.offset : outline.head != Head::none)
       return search_ended();
@@ -175,6 +177,11 @@ Interpreter::State Interpreter::pass_leader(const Fault& fault, std::string_view
   return pass_leader(leader, position_);
 }
 
+bool Interpreter::passes_before_head(std::string_view line) const {
+  const Dialect& dialect = dialect_of(dialect_without_head(*heading_.source, environment_));
+  return reader_.position().offset <= longest_leader && dialect.leader(line).passes;
+}
+
 // A text that has nothing else ends with the alarm of its first line.
 Interpreter::State Interpreter::pass_leader(const Leader& leader, TextPosition position) {
   if (leader.mark == Leader::no_mark) return State::searching;
@@ -203,6 +210,10 @@ bool Interpreter::structure_found(Statement statement) const {
 }
 
 Interpreter::State Interpreter::label_found(TextPosition position) {
+  if (search_.purpose == Purpose::local) {
+    if (search_.open.size() != 0) return fail(not_allowed_);
+    return found(*search_.source, levels_[depth_].program, position, search_.dialect);
+  }
   const std::size_t common = levels_[depth_].open.common(search_.open);
   if (common != search_.open.size()) return fail(not_allowed_);
   const JumpCache::Target target{position, common, false, search_.open.divided()};
@@ -213,7 +224,7 @@ Interpreter::State Interpreter::label_found(TextPosition position) {
 Interpreter::State Interpreter::search_ended() {
   if (search_.purpose == Purpose::program && call_.kind != CallKind::cycle) {
     TextSource* const other = environment_.subprogram(ProgramName(call_.number).view());
-    if (other != nullptr) return found(*other, call_.number, {});
+    if (other != nullptr) return read_head(*other, call_.number, Heading::Then::enter);
     if (rules_.homing_program != 0 && call_.number == rules_.homing_program) return home_axis();
     // The old form: the last four digits are the program, those before them count.
     constexpr std::uint32_t four_digits = 10000;
@@ -230,10 +241,11 @@ Interpreter::State Interpreter::search_ended() {
     search_.open.close_divided();
     if (search_.open.size() < search_.depth) return end_of_text();
   }
-  if (search_.purpose != Purpose::label || search_.from_top) return fail(not_found_);
+  const bool labelled = search_.purpose == Purpose::label || search_.purpose == Purpose::local;
+  if (!labelled || search_.from_top) return fail(not_found_);
   search_.from_top = true;
   search_.open.clear();
-  reader_.seek(*search_.source, levels_[depth_].top);
+  reader_.seek(*search_.source, levels_[depth_].home);
   return State::searching;
 }
 

@@ -16,6 +16,7 @@ constexpr double active_motion = 4001;  // variable with the motion code in forc
 
 Fault NumReader::complete() {
   block_.lead_word = 'K';
+  block_.spindle_codes = true;
   if (const Fault fault = check_order()) return fault;
   if (const Fault fault = complete_thread()) return fault;
   if (const Fault fault = calls_ ? complete_call() : check_no_call()) return fault;

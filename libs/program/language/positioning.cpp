@@ -86,9 +86,12 @@ Fault Positioning::return_to_numbered_reference(std::uint16_t at) {
 }
 
 Fault Positioning::return_to(std::uint16_t at, const AxisValues& reference) {
-  std::uint32_t axes = 0;
-  if (const Fault fault = words_.take_axes(at, axes)) return fault;
-  const AxisValues over = programmed_target(axes);
+  std::uint32_t axes = environment_.axes();
+  AxisValues over = state_.program_position;
+  if (!words_.every_axis()) {
+    if (const Fault fault = words_.take_axes(at, axes)) return fault;
+    over = programmed_target(axes);
+  }
   if (const Fault fault = output_.move_straight({CommandKind::rapid}, over)) return fault;
   state_.change_settings().intermediate = over;
   AxisValues target = state_.position;

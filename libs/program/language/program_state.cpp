@@ -10,7 +10,8 @@ void CycleWords::begin(std::uint8_t before, std::uint8_t cycle, double level) {
     *this = CycleWords{};
     hole.initial = level;
   } else if (is_tapping(before) != is_tapping(cycle) || is_shifting(before) != is_shifting(cycle)) {
-    hole.peck = 0;
+    hole.peck = hole.reduction = hole.least_peck = hole.between_outs = 0;
+    retract_multiple = 1;
     has_q = false;
     shift = {};
     tapping_axis = 0;

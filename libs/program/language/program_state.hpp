@@ -21,6 +21,7 @@ struct CycleWords {
   bool has_q = false;              ///< of pecks, 0 too
   std::array<double, 2> shift{};   ///< of G76 and G87, mm in the plane
   std::uint32_t tapping_axis = 0;  ///< as Command::number of kind tap
+  double retract_multiple = 1;     ///< of S, when a tap comes out of its hole (Haas)
 
   /// The code `cycle` comes while `before` is active, 80: none; the axis across the plane is at `level`, mm.
   void begin(std::uint8_t before, std::uint8_t cycle, double level);

@@ -98,8 +98,9 @@ Fault TableCodes::change_tool(std::uint16_t at, std::uint32_t l) {
                       : l == 11 ? Table::tool_length_wear
                       : l == 12 ? Table::tool_radius
                                 : Table::tool_radius_wear;
-  return store_tool(table, static_cast<std::uint16_t>(number), words_.length('R'), !state_.modal.absolute,
-                    words_.offset('P'));
+  const double scale = l == 12 || l == 13 ? words_.radius_scale() : 1.0;
+  return store_tool(table, static_cast<std::uint16_t>(number), scale * words_.length('R'),
+                    !state_.modal.absolute, words_.offset('P'));
 }
 
 Fault TableCodes::store_tool(Table table, std::uint16_t number, double value, bool adds, std::uint16_t at) {

@@ -64,6 +64,7 @@ const Value* Variables::stored(double number) const {
 }
 
 AlarmNumber Variables::read_common(double number, Value& value) const {
+  if (number_here_ != nullptr) number = number_here_(number);
   if (const Value* const found = stored(number)) {
     value = *found;
     return AlarmNumber::none;
@@ -79,6 +80,7 @@ AlarmNumber Variables::write(double number, Value value) {
     store(levels_[level_].values[static_cast<std::size_t>(number)], value);
     return AlarmNumber::none;
   }
+  if (number_here_ != nullptr) number = number_here_(number);
   if (const Value* const found = stored(number)) {
     store(*const_cast<Value*>(found), value);  // our own store_, found through a const member
     return AlarmNumber::none;

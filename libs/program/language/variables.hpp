@@ -182,6 +182,9 @@ class SystemVariables {
 /// A value has to be asked for first: no alarm, but the line is read again when it is known.
 inline constexpr auto value_pending = static_cast<AlarmNumber>(1);
 
+/// The number here of a variable of a dialect, which is whole, from 0; below 0: there is none.
+using VariableNumber = double (*)(double number);
+
 /// Everything an expression can name. No allocation.
 class Variables {
  public:
@@ -197,6 +200,9 @@ class Variables {
   void repeat() { levels_[level_].values = levels_[level_].arguments.values; }
   /// Back to the caller's.
   void leave() { --level_; }
+
+  /// How the text that is read numbers its variables but the local ones; null: as variable_ranges.
+  void set_numbers(VariableNumber number) { number_here_ = number; }
 
   /// The number is whole, from 0.
   AlarmNumber read(double number, Value& value) const {
@@ -249,6 +255,7 @@ class Variables {
   const Value* stored(double number) const;
 
   SystemVariables& system_;
+  VariableNumber number_here_ = nullptr;
   VariableStore store_;
   std::array<Level, max_levels> levels_{};
   std::size_t level_ = 0;

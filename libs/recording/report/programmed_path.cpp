@@ -123,7 +123,7 @@ class Tracer {
 }  // namespace
 
 ProgrammedPath programmed_path(const std::string& text, const MachineTables& tables,
-                               const AxisValues& position) {
+                               const AxisValues& position, const std::string& name) {
   ProgrammedPath result;
   channel_setup::ChannelSetup machine(tables);
   // What the machine made of the moves is in the recording: here it only has axes.
@@ -134,7 +134,7 @@ ProgrammedPath programmed_path(const std::string& text, const MachineTables& tab
   reader->on_command = [&](const language::Command& command, const language::Command&) {
     tracer.take(reader->from(), command);
   };
-  language::StringSource source(text);
+  language::StringSource source(text, name);
   if (reader->read(source, position) == program_execution::Ending::alarm) {
     const auto& alarm = reader->alarm();
     result.problem = std::to_string(alarm.line) + ":" + std::to_string(alarm.column) + ": " +

@@ -24,10 +24,10 @@ struct ProgrammedPath {
   std::string problem;       ///< the interpreter's alarm as line:column: text, else empty
 };
 
-/// Reads `text` from `position` (machine coordinates, mm and deg), once where it repeats. Arcs, and lines
-/// whose rotary axes turn without tool tip control, become chords at most a nanometre off. Throws
-/// std::runtime_error when the parameters make no machine.
+/// Reads `text`, stored as `name`, from `position` (machine coordinates, mm and deg), once where it repeats.
+/// Arcs, and lines whose rotary axes turn without tool tip control, become chords at most a nanometre off.
+/// Throws std::runtime_error when the parameters make no machine.
 ProgrammedPath programmed_path(const std::string& text, const MachineTables& tables,
-                               const language::AxisValues& position);
+                               const language::AxisValues& position, const std::string& name = "");
 
 }  // namespace trunnion::report

@@ -335,9 +335,10 @@ Report make_report(const std::string& recording, const ReportInputs& inputs) {
   report.starved = capture.starved;
   report.period = capture.tables.parameters.get(parameter::interpolation_cycle) * 1e-6;
   Evaluation evaluation(capture, inputs.true_tip, report);
-  report.programmed = programmed_path(
-      inputs.program_text, capture.tables,
-      capture.path.empty() ? AxisValues{} : evaluation.machine_position(capture.path.front()));
+  report.programmed =
+      programmed_path(inputs.program_text, capture.tables,
+                      capture.path.empty() ? AxisValues{} : evaluation.machine_position(capture.path.front()),
+                      inputs.program_name);
   if (report.problem.empty() && !report.programmed.problem.empty())
     report.problem = inputs.program_name + ":" + report.programmed.problem;
   if (report.problem.empty() && capture.path.empty())

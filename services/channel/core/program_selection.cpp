@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_selection.hpp"
 
-#include <string_view>
 #include <utility>
 
 namespace trunnion::channel {
-namespace {
-// Of the programs that a command of `trunnion` writes for itself.
-constexpr std::string_view temporary_suffix = ".tmp.nc";
-}  // namespace
-
-bool is_temporary(const std::string& program) { return program.ends_with(temporary_suffix); }
 
 const idl::program::ProgramEntry* ProgramSelection::stored(const std::string& name) const {
   for (const auto& entry : programs_.programs)

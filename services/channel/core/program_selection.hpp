@@ -7,12 +7,12 @@
 #include <type_traits>
 
 #include "contracts/types.hpp"
+#include "machine/program_number.hpp"
 #include "program_record.hpp"
 
 namespace trunnion::channel {
 
-/// A command of `trunnion` has stored the program for itself: its name ends with .tmp.nc.
-bool is_temporary(const std::string& program);
+using machine::is_temporary;
 
 class ProgramSelection {
  public:

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contracts/types.hpp"
@@ -36,7 +37,7 @@ class ProgramText : public language::TextSource {
   std::optional<ChunkWanted> wanted() const;
   void deliver(std::uint64_t offset, std::vector<std::uint8_t> data);
   void fail() { failed_ = true; }
-  const std::string& name() const { return name_; }
+  std::string_view name() const override { return name_; }
   /// Of ProgramEntry.
   std::uint8_t role() const { return role_; }
 

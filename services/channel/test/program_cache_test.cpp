@@ -38,6 +38,17 @@ TEST(ProgramCache, ACallTakesTheProgramOfItsNameWithOrWithoutAnExtension) {
     EXPECT_EQ(called({other}, "O9990"), "") << other;
 }
 
+// By its name the text may have a dialect of its own.
+TEST(ProgramCache, ATextHasTheNameOfItsProgram) {
+  idl::program::ProgramEntry entry;
+  entry.name = "part.haas";
+  ProgramCache cache;
+  EXPECT_EQ(cache.open(entry).name(), "part.haas");
+  idl::program::ProgramList list;
+  list.programs.emplace_back().name = "O9990.ngc";
+  EXPECT_EQ(cache.call(list, "O9990")->name(), "O9990.ngc");
+}
+
 // Program 9990.9 homes the axis that L0 names: in the place of 9990 it would home another one than the rest.
 TEST(ProgramCache, AnIndexOfTheNumDialectIsAnotherProgramAndNoExtension) {
   EXPECT_EQ(called({"O9990.9"}, "O9990"), "");

@@ -10,7 +10,7 @@ import {
   Decoration, type DecorationSet, drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap,
   lineNumbers, ViewPlugin, type ViewUpdate,
 } from "@codemirror/view";
-import type { ProgramError } from "../contract";
+import type { ProgramDialect, ProgramError } from "../contract";
 import { explainedAt, tokens } from "./g_code";
 import { lineBreak } from "./lines";
 
@@ -21,30 +21,31 @@ function markOf(kind: string): Decoration {
   return known;
 }
 
-function colours(view: EditorView): DecorationSet {
+function colours(view: EditorView, marked: boolean): DecorationSet {
   const builder = new RangeSetBuilder<Decoration>();
   for (const { from, to } of view.visibleRanges)
     for (let at = from; at <= to; ) {
       const line = view.state.doc.lineAt(at);
-      for (const token of tokens(line.text)) builder.add(line.from + token.from, line.from + token.to, markOf(token.kind));
+      for (const token of tokens(line.text, marked)) builder.add(line.from + token.from, line.from + token.to, markOf(token.kind));
       at = line.to + 1;
     }
   return builder.finish();
 }
 
 /** Lines stand alone in G code, so only what is seen is coloured. */
-const highlighting = ViewPlugin.fromClass(
-  class {
-    decorations: DecorationSet;
-    constructor(view: EditorView) {
-      this.decorations = colours(view);
-    }
-    update(update: ViewUpdate) {
-      if (update.docChanged || update.viewportChanged) this.decorations = colours(update.view);
-    }
-  },
-  { decorations: (plugin) => plugin.decorations },
-);
+const highlighting = (marked: boolean) =>
+  ViewPlugin.fromClass(
+    class {
+      decorations: DecorationSet;
+      constructor(view: EditorView) {
+        this.decorations = colours(view, marked);
+      }
+      update(update: ViewUpdate) {
+        if (update.docChanged || update.viewportChanged) this.decorations = colours(update.view, marked);
+      }
+    },
+    { decorations: (plugin) => plugin.decorations },
+  );
 
 const explanations = hoverTooltip((view, position) => {
   const line = view.state.doc.lineAt(position);
@@ -62,6 +63,10 @@ const explanations = hoverTooltip((view, position) => {
   };
 });
 
+/** The catalogue has the codes of ISO programs: those of the others are neither marked nor explained. */
+const isoCode: Extension = [highlighting(true), explanations];
+const otherCode: Extension = highlighting(false);
+
 export interface EditorEvents {
   /** The text has changed. */
   changed(): void;
@@ -73,13 +78,15 @@ export interface EditorEvents {
 export class ProgramEditor {
   private readonly view: EditorView;
   private readonly comparison = new Compartment();
+  private readonly words = new Compartment();
+  private iso = true;
   private lineNumber = 1;
 
   /** `language`: colours and explanations; those of G code when it is left out. */
-  constructor(place: HTMLElement, text: string, label: string, phrases: Record<string, string>, events: EditorEvents, language: Extension = [highlighting, explanations]) {
+  constructor(place: HTMLElement, text: string, label: string, phrases: Record<string, string>, events: EditorEvents, language: Extension = isoCode) {
     const extensions: Extension[] = [
       lineNumbers(), history(), drawSelection(), highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(),
-      lintGutter(), language, search({ top: true }), keymap.of([...searchKeymap, ...historyKeymap, ...defaultKeymap]),
+      lintGutter(), this.words.of(language), search({ top: true }), keymap.of([...searchKeymap, ...historyKeymap, ...defaultKeymap]),
       EditorState.phrases.of(phrases), EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false", tabindex: "0", "data-test": "program-text" }),
       this.comparison.of([]), EditorState.lineSeparator.of(lineBreak(text)),
       EditorView.updateListener.of((update) => {
@@ -118,6 +125,14 @@ export class ProgramEditor {
       found.push({ from, to, severity: "error", message: error.number > 0 ? `${error.number}: ${error.text}` : error.text });
     }
     this.view.dispatch(setDiagnostics(this.view.state, found));
+  }
+
+  /** The dialect of the G code. */
+  written(dialect: ProgramDialect): void {
+    const iso = dialect === "iso";
+    if (iso === this.iso) return;
+    this.iso = iso;
+    this.view.dispatch({ effects: this.words.reconfigure(iso ? isoCode : otherCode) });
   }
 
   goTo(number: number): void {

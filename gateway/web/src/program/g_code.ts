@@ -40,8 +40,8 @@ export function aboutCode(text: string): string | undefined {
   return callCodes.find(([first, last]) => number >= Number(first.slice(1)) && number <= Number(last.slice(1)))?.[2];
 }
 
-/** Tokens of a line, ascending, without its blanks and plain numbers. */
-export function tokens(line: string): Token[] {
+/** Tokens of a line, ascending, without its blanks and plain numbers. `marked`: codes that the catalogue lacks are unknown. */
+export function tokens(line: string, marked = true): Token[] {
   const found: Token[] = [];
   let at = 0;
   const head = /^\s*(?:%(?:\s*[O:]?\s*\d+)?|[O:]\s*\d+|O?<[^>]*>)/i.exec(line) ?? /^\s*\/[1-9]?/.exec(line);
@@ -61,7 +61,7 @@ export function tokens(line: string): Token[] {
       if (!match || match[0] === "") continue;
       const from = at;
       at += match[0].length;
-      found.push({ from, to: at, kind: kind === "code" && aboutCode(match[0]) === undefined ? "unknown" : kind });
+      found.push({ from, to: at, kind: marked && kind === "code" && aboutCode(match[0]) === undefined ? "unknown" : kind });
       continue scan;
     }
     ++at;

@@ -2,12 +2,14 @@
 // Homing of all axes of a channel: one line of MDI. The channel carries it out, whatever becomes of the page.
 import { get } from "../api";
 import type { Parameter, ProgramList } from "../contract";
+import { isoHead } from "../program/dialects";
 
 /** The stored program in which the builder of the machine has written the order, as on NUM controls. */
 export const homingProgram = "O9990";
 
 /** Parameter 04c959 of a channel, the dialect of its lines. */
 export const dialectParameter = (channel: number): number => 40959 + 1000 * channel;
+const isoDialect = 0;
 const numDialect = 1;
 
 /** How a channel homes all its axes. */
@@ -15,6 +17,8 @@ export interface HomingWay {
   /** By O9990; otherwise one axis after the other. */
   program: boolean;
   num: boolean;
+  /** The channel reads neither ISO nor NUM, so the line says that it is ISO. */
+  named?: boolean;
 }
 
 /** The axes as the channel homes them, in whatever order a line names them. */
@@ -32,9 +36,10 @@ export const homingBy = (way: HomingWay, letters: string): string => (way.progra
 
 /** The line of MDI. */
 export function homingLine(way: HomingWay, letters: string): string {
-  if (way.program) return way.num ? "G77 H9990" : "M98 P9990";
+  const head = way.named ? isoHead : "";
+  if (way.program) return way.num ? "G77 H9990" : `${head}M98 P9990`;
   const axes = homingOrder(letters);
-  return way.num ? `G159 ${axes.join(" ")}` : `G28.2 ${axes.map((axis) => `${axis}0`).join(" ")}`;
+  return way.num ? `G159 ${axes.join(" ")}` : `${head}G28.2 ${axes.map((axis) => `${axis}0`).join(" ")}`;
 }
 
 /** Nothing when the gateway does not say what the channel would do: then nothing may be homed in another order. */
@@ -44,5 +49,7 @@ export async function readHomingWay(channel: number): Promise<HomingWay | null> 
     get<Parameter>(`/api/parameters/${dialectParameter(channel)}`),
   ]);
   if (!listed.ok || !listed.body || !dialect.ok || !dialect.body) return null;
-  return { program: callsHomingProgram(listed.body.programs), num: Number(dialect.body.value) === numDialect };
+  const value = Number(dialect.body.value);
+  const way = { program: callsHomingProgram(listed.body.programs), num: value === numDialect };
+  return value === isoDialect || way.num ? way : { ...way, named: true };
 }

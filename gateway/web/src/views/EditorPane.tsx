@@ -95,11 +95,12 @@ export function EditorPane({ program, drafts, changed }: Props) {
     let made: ProgramEditor | undefined;
     let pending: ReturnType<typeof setTimeout> | undefined;
     const checker = new Checker(
-      (content) => checkProgram(channelNumber.peek() ?? 0, content),
+      (content) => checkProgram(channelNumber.peek() ?? 0, content, current.current.name),
       (state) => {
         check.value = state;
         if (state.kind !== "done") return;
         path.value = state.result.path;
+        made?.written(state.result.dialect);
         made?.mark(state.result.error);
       },
     );

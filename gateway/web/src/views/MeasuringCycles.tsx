@@ -5,6 +5,7 @@ import { useEffect } from "preact/hooks";
 import { get } from "../api";
 import type { Variables } from "../contract";
 import { fixed } from "../format";
+import { isoHead } from "../program/dialects";
 import { axesOf, type Cycle, cycles, type FieldName, lineOf, titled, type Typed, wrongFields } from "../state/measuring_cycles";
 import { channel, command } from "../state/store";
 import { text } from "../text/texts";
@@ -26,7 +27,7 @@ async function readVariables(number: number): Promise<void> {
 
 async function execute(title: string, line: string, cycle: Cycle | null): Promise<void> {
   if (channel.peek()?.mode !== "MDI" && !(await command(title, "mode", { mode: "MDI" }))) return;
-  if ((await command(title, "mdi", { line })) && cycle) measured.value = cycle;
+  if ((await command(title, "mdi", { line: `${isoHead}${line}` })) && cycle) measured.value = cycle;
 }
 
 const input = (field: FieldName, value: string) => (typed.value = { ...typed.peek(), [field]: value });

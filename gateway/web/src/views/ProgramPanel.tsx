@@ -3,9 +3,11 @@ import { signal, useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { programBytes } from "../api";
 import { bytes } from "../format";
+import { dialectNames } from "../program/dialects";
 import { ProgramText } from "../program/lines";
 import { reminders } from "../state/functions";
 import { failingLine } from "../state/model";
+import { plan } from "../state/plan";
 import { programs, refreshPrograms, removeProgram } from "../state/programs";
 import { channel, command, machine } from "../state/store";
 import { text as texts } from "../text/texts";
@@ -92,12 +94,14 @@ export function ProgramPanel() {
   if (!one) return null;
   const t = texts.value;
   const newest = newestOf(one.program);
+  const dialect = plan.value?.program === one.program ? dialectNames[plan.value.dialect] : "";
   const older = newest !== undefined && newest.revision !== one.program_revision;
   return (
     <section class="program-panel" aria-label={t.program}>
       <div class="title">
         <h2>{t.program}</h2>
         <b class="name">{one.program || t.noneSelected}</b>
+        {dialect && <span class="dim" data-test="dialect">{dialect}</span>}
         <div class="end">
           <button aria-expanded={open.value} onClick={() => (open.value = !open.value)}>
             {open.value ? t.backToText : t.selectProgram}

@@ -307,5 +307,25 @@ TEST(Check, ProgramOfManyFilesCallsThroughThem) {
   EXPECT_THAT(out.str(), HasSubstr("3 rapid"));
 }
 
+TEST(Check, TheDialectOfTheMachineIsThatOfProgramsWithoutTheirOwn) {
+  const auto checks = [](language::ProgramDialect dialect, const char* program) {
+    DefaultMachine machine({});
+    machine.dialect = dialect;
+    language::StringSource source(program);
+    std::ostringstream out;
+    return check_program(
+        source, machine, {}, {}, [](std::uint32_t) { return "part.nc"; }, out);
+  };
+  EXPECT_TRUE(checks(language::ProgramDialect::num, "G4 F2\nM2\n"));
+  EXPECT_FALSE(checks(language::ProgramDialect::iso, "G4 F2\nM2\n"));
+  EXPECT_TRUE(checks(language::ProgramDialect::iso, "(DIALECT: NUM)\nG4 F2\nM2\n"));
+}
+
+TEST(Check, TheNameOfAFileIsThatOfItsText) {
+  const Folder folder;
+  folder.write("part.ngc", "G0 X1\nM30\n");
+  EXPECT_EQ(FileSource((folder.path / "part.ngc").string()).name(), "part.ngc");
+}
+
 }  // namespace
 }  // namespace trunnion::analysis

@@ -114,5 +114,27 @@ TEST(Machine, ErrorsNameLineAndColumn) {
   EXPECT_EQ(error_of("name: m\ntitle: caf\xe9\n"), "machine.yaml:2:11: error: the text is not UTF-8");
 }
 
+TEST(Machine, ItsDialectsAreParametersOfEveryChannel) {
+  const auto directory =
+      directory_with("name: m\ndialect: haas\nprogram_dialects: {.ngc: linuxcnc, .NUM: num}\n" +
+                     all_services + "  - {service: channel, channel: 1}\n");
+  std::ofstream(directory + "/parameters.yaml") << "\"041959\": 1\n";
+  const auto values = machine_parameters(load_machine(directory));
+  std::filesystem::remove(directory + "/parameters.yaml");
+  EXPECT_EQ(values.at(40959).value, 3);
+  EXPECT_EQ(values.at(41959).value, 1) << "parameters.yaml has a channel of its own dialect";
+  EXPECT_EQ(values.at(40800).text, ".ngc linuxcnc; .NUM num");
+  EXPECT_EQ(values.at(41800).text, ".ngc linuxcnc; .NUM num");
+}
+
+TEST(Machine, ADialectThatIsNoneIsAnErrorWithItsPlace) {
+  EXPECT_EQ(error_of("name: m\ndialect: fanuc\n" + all_services),
+            "machine.yaml:2:10: error: 'fanuc' is none of haas, iso, linuxcnc, num");
+  EXPECT_EQ(error_of("name: m\nprogram_dialects: {.ngc: emc}\n" + all_services),
+            "machine.yaml:2:26: error: 'emc' is none of haas, iso, linuxcnc, num");
+  EXPECT_EQ(error_of("name: m\nprogram_dialects: {'.n c': iso}\n" + all_services).substr(0, 17),
+            "machine.yaml:2:28");
+}
+
 }  // namespace
 }  // namespace trunnion::machine

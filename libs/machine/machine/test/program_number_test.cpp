@@ -19,6 +19,12 @@ TEST(ProgramNumber, OfANameIsTheSameWithAndWithoutLetterZerosAndExtension) {
     EXPECT_EQ(number_in_name(name), std::nullopt) << name;
 }
 
+TEST(ProgramNumber, ProgramsThatTheControlStoresForItselfAreTemporary) {
+  EXPECT_TRUE(is_temporary("O99601.tmp.nc"));
+  EXPECT_FALSE(is_temporary("part.nc"));
+  EXPECT_FALSE(is_temporary("tmp.nc"));
+}
+
 TEST(ProgramNumber, OfAHeadNeedsItsLetterAndEndsWhereItsDigitsEnd) {
   EXPECT_EQ(number_in_head("%9990.9(homing)"), (ProgramNumber{9990, 9}));
   EXPECT_EQ(number_in_head("%9990(homing)"), (ProgramNumber{9990, 0}));

@@ -298,6 +298,39 @@ TEST(ChannelSetup, ProgramsAreInTheDialectOfTheChannel) {
   EXPECT_EQ(alarm(), 0u);
 }
 
+TEST(ChannelSetup, NamesOfProgramsMayChooseTheirDialect) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  tables.parameters.values[40800] = {0, ".num num"};
+  const ChannelSetup setup(tables);
+  EXPECT_EQ(setup.dialect_by_name("SHAFT.num"), language::ProgramDialect::num);
+  EXPECT_EQ(setup.dialect_by_name("shaft.nc"), std::nullopt);
+  EXPECT_EQ(setup.dialect_by_name("O99601.tmp.nc"), language::ProgramDialect::iso)
+      << "the control has written it itself";
+  tables.parameters.values[40800] = {0, ".num fanuc"};
+  try {
+    ChannelSetup{tables};
+    ADD_FAILURE() << "a dialect that is none";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(),
+                 "parameter 040800 (program_dialects): '.num' needs one dialect: iso, num, linuxcnc, haas");
+  }
+}
+
+TEST(ChannelSetup, ADialectThatIsAskedForGoesBeforeThatOfTheMachine) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  tables.parameters.values[40800] = {0, ".nc iso"};
+  ChannelSetup setup(tables);
+  setup.set_program_dialect(language::ProgramDialect::num);
+  EXPECT_EQ(setup.program_dialect(), language::ProgramDialect::num);
+  EXPECT_EQ(setup.dialect_by_name("part.nc"), std::nullopt);
+}
+
+TEST(ChannelSetup, MacrosOfTheControlAreIsoInEveryChannel) {
+  for (const char* name : {"O9801", "O9810", "O9960"})
+    EXPECT_EQ(control_macro(name)->dialect(), language::ProgramDialect::iso) << name;
+  EXPECT_EQ(control_macro("O9999"), nullptr);
+}
+
 TEST(ChannelSetup, ExternalParametersOfNumAreThoseOfTheSpindles) {
   auto tables = tool_tables::load_machine_tables(ac_table);
   const auto first = 100000 + 1000u * ChannelSetup(tables).tapping_spindle().axis.value();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes, in chunks of any size, read in both dialects: no crash, finite commands, and the same stream for
+// Any bytes, in chunks of any size, read in every dialect: no crash, finite commands, and the same stream for
 // every chunk size.
 #include <cmath>
 #include <cstdint>
@@ -123,5 +123,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   test::interpret(data, size, ProgramDialect::iso);
   test::interpret(data, size, ProgramDialect::num);
+  test::interpret(data, size, ProgramDialect::haas);
   return 0;
 }

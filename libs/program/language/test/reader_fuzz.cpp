@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any line, read in both dialects: no crash, words within their range, and a look at a line agrees with
+// Any line, read in every dialect: no crash, words within their range, and a look at a line agrees with
 // reading it.
 #include <algorithm>
 #include <cmath>
@@ -94,7 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     if (end <= max_line_length) {
-      for (const auto name : {ProgramDialect::iso, ProgramDialect::num})
+      for (const auto name : {ProgramDialect::iso, ProgramDialect::num, ProgramDialect::haas})
         check(Interpreter::dialect_of(name), text.substr(0, end), 0b10, variables, block);
     }
     text.remove_prefix(std::min(end + 1, text.size()));

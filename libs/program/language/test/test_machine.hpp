@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "language/interpreter.hpp"
+#include "language/name_dialects.hpp"
 
 namespace trunnion::language::test {
 
@@ -47,6 +48,8 @@ struct TestMachine : Environment {
   DwellPoint point = DwellPoint::refused;
   TwoToolWords two_tools = TwoToolWords::refused;
   ProgramDialect dialect = ProgramDialect::iso;
+  NameDialects names;
+  bool radius_offsets = false;  // of Haas programs
   std::map<std::uint32_t, double> external;  // parameters of the NUM dialect
   AngleMCodes angle_codes{19, -1, -1, -1};
 
@@ -85,6 +88,10 @@ struct TestMachine : Environment {
   DwellPoint dwell_point() const override { return point; }
   TwoToolWords two_tool_words() const override { return two_tools; }
   ProgramDialect program_dialect() const override { return dialect; }
+  bool haas_radius_offsets() const override { return radius_offsets; }
+  std::optional<ProgramDialect> dialect_by_name(std::string_view name) const override {
+    return names.of(name);
+  }
   std::optional<double> external_parameter(std::uint32_t number) const override {
     const auto found = external.find(number);
     return found == external.end() ? std::nullopt : std::optional(found->second);
