@@ -125,11 +125,12 @@ def alarms():
 def code_tables():
     """Rows of the G codes, of the calls and of the M codes, and the files they are from."""
     g_path, m_path, calls = (f"libs/program/language/{f}" for f in ("codes.cpp", "codes.hpp", "macro_call.hpp"))
-    dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC", "num": "NUM", "g2core": "g2core"}
+    dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC", "num": "NUM", "g2core": "g2core", "haas": "Haas"}
     program = lambda text: "`" + joined(text).replace("\\n", " / ") + "`"
     shown = r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT
-    g = [(int(t), group, joined(text), dialect[o], joined(since), program(example)) for t, group, text, o, since, example in
-         entries(g_path, "GCode", r"(\d+),\s*Group::(\w+),\s*AxisWords::\w+,\s*run<[^>]*>,\s*" + TEXT + shown)]
+    effect = lambda reason: f"; no effect of its own: {joined(reason)}" if reason else ""
+    g = [(int(t), group, joined(text) + effect(reason), dialect[o], joined(since), program(example)) for t, group, text, o, since, example, reason in
+         entries(g_path, "GCode", r"(\d+),\s*Group::(\w+),\s*AxisWords::\w+,\s*run<[^>]*>,\s*" + TEXT + shown + r"(?:,\s*" + TEXT + ")?")]
     c = [(int(first), int(last), joined(text), dialect[o], joined(since), program(example)) for first, last, text, o, since, example in
          entries(calls, "CallCode", r"(\d+),\s*(\d+),\s*CallKind::\w+,\s*" + TEXT + shown)]
     m = [(int(n), when, action, group, joined(text)) for n, when, action, group, text in

@@ -34,6 +34,8 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
     state.thread_lead = 0;
+    state.machining_mode = state.modal.smoothing;
+    state.accurate_path = false;
   }
   state.needs_position = state.homing = false;
   state.homed = 0;
@@ -172,6 +174,7 @@ Fault BlockExecutor::act() {
     if (const Fault fault = carry_out(frame_groups | group_bit(Group::one_block))) return fault;
     if (taken || one_block) return {};
   }
+  if (context_.words.axes_used()) return {};  // a modal code has taken them
   const ModalState& modal = context_.state.modal;
   if (modal.cycle != 80)
     return handlers_.num_tapping.active() ? handlers_.num_tapping.run() : handlers_.cycles.run();

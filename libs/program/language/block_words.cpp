@@ -48,7 +48,9 @@ Fault BlockWords::collect_g() {
     const double tenths = std::round(word.value * 10);
     const bool exact = std::abs(word.value * 10 - tenths) < 1e-9 && tenths >= 0 && tenths < 10000;
     const GCode* const code = exact ? g_code(static_cast<std::uint32_t>(tenths)) : nullptr;
-    if (code == nullptr) return {AlarmNumber::unknown_g, word.offset};
+    if (code == nullptr)
+      return {AlarmNumber::unknown_g, word.offset,
+              exact ? g_remedy(static_cast<std::uint32_t>(tenths)) : nullptr};
     if (g_.has(code->group)) return {AlarmNumber::group_twice, word.offset};
     g_.add(*code, word.offset);
   }

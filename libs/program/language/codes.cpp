@@ -25,13 +25,19 @@ constexpr std::array rows = {
           "circle or helix counter-clockwise; words as G2", Origin::iso, "0.1", "G3 X2 I1 F100"},
     GCode{40, Group::one_block, AxisWords::taken, run<&BlockHandlers::positioning, &Positioning::dwell>,
           "dwell: P milliseconds, or X or U seconds", Origin::iso, "0.1", "G4 P500"},
+    GCode{50, Group::smoothing, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_contour_control>,
+          "machining mode: P0 default, P10000 high precision as G5.1 Q1, P1 to P3 as Q2", Origin::fanuc,
+          "0.3", "G5 P10000"},
     GCode{51, Group::smoothing, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_smoothing>,
-          "machining mode: Q0 default, Q1 high precision, Q2 high speed and high precision", Origin::fanuc,
-          "0.2", "G5.1 Q1"},
+          "machining mode: Q0 default, Q1 high precision, Q2 and Q3 high speed and high precision; R1..R5 of "
+          "Q1 as Q2; the axes that Q2 and Q3 name with 0 do not move",
+          Origin::fanuc, "0.2", "G5.1 Q1"},
     GCode{62, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 62>,
           "NURBS curve: P order 2..4, K knot, R weight, X Y Z control point per block; as many blocks with K "
           "alone as the order end it",
           Origin::fanuc, "0.2", "G6.2 P2 K0 X0 F100\nK0 X1\nK1\nK1"},
+    GCode{80, Group::smoothing, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_look_ahead>,
+          "machining mode: P0 default, P1 high precision as G5.1 Q1", Origin::fanuc, "0.3", "G8 P1"},
     GCode{90, Group::exact_stop, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::stop_exactly>,
           "exact stop at the end of this block", Origin::iso, "0.2", "G9 G1 X1 F100"},
     GCode{100, Group::one_block, AxisWords::taken, run<&BlockHandlers::tables, &TableCodes::change_table>,
@@ -167,6 +173,16 @@ constexpr std::array rows = {
     GCode{610, Group::path_control, AxisWords::move,
           run<&BlockHandlers::modal, &ModalCodes::stop_at_every_end>, "exact stop", Origin::iso, "0.1",
           "G61"},
+    GCode{611, Group::path_control, AxisWords::move,
+          run<&BlockHandlers::modal, &ModalCodes::set_accurate_path>,
+          "continuous path with the machining mode of G5.1 Q1, until the next code of the group",
+          Origin::fanuc, "0.3", "G61.1"},
+    GCode{620, Group::path_control, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::follow_path>,
+          "as G64 without P", Origin::fanuc, "0.3", "G62",
+          "the limits of the axes slow every corner, and no override of corners adds to them"},
+    GCode{630, Group::path_control, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::follow_path>,
+          "as G64 without P", Origin::fanuc, "0.3", "G63",
+          "overrides and feed hold act as always; G84 taps in step with the spindle"},
     GCode{640, Group::path_control, AxisWords::move,
           run<&BlockHandlers::modal, &ModalCodes::set_continuous_path>,
           "continuous path; P mm off the corners at most, Q mm off collinear points", Origin::iso, "0.1",
@@ -274,10 +290,25 @@ constexpr std::array rows = {
           "0.2", "G99"},
     GCode{1590, Group::one_block, AxisWords::taken, run<&BlockHandlers::positioning, &Positioning::home>,
           "as G28.2; a letter alone names an axis", Origin::num, "0.3", "G159 X Z"},
+    GCode{1870, Group::smoothing, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_finish>,
+          "machining mode: P1 default, P2 as G5.1 Q2, P3 as G5.1 Q1; E mm off the corners at most; without P "
+          "or E that of the machine",
+          Origin::haas, "0.3", "G187 P3 E0.01"},
+};
+
+/// A code of other controls, and what does its work here.
+struct RefusedCode {
+  std::uint16_t tenths;
+  const char* remedy;
+};
+
+constexpr std::array refused_codes = {
+    RefusedCode{431, "write G43.4 H, or G43 H in a tilted plane"},
+    RefusedCode{542, "write G43.4 H: the zero turns with the table"},
 };
 
 constexpr std::uint8_t no_code = 0xff;
-constexpr std::size_t g_numbers = 1600;  // tenths below it can be codes
+constexpr std::size_t g_numbers = 1900;  // tenths below it can be codes
 static_assert(rows.back().tenths < g_numbers && rows.size() < no_code);
 constexpr auto g_index = [] {
   std::array<std::uint8_t, g_numbers> index{};
@@ -293,6 +324,13 @@ constinit const std::span<const GCode> g_codes = rows;
 const GCode* g_code(std::uint32_t tenths) {
   if (tenths >= g_index.size() || g_index[tenths] == no_code) return nullptr;
   return &rows[g_index[tenths]];
+}
+
+const char* g_remedy(std::uint32_t tenths) {
+  for (const RefusedCode& code : refused_codes) {
+    if (code.tenths == tenths) return code.remedy;
+  }
+  return nullptr;
 }
 
 }  // namespace trunnion::language

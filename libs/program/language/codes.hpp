@@ -44,6 +44,7 @@ enum class Origin : std::uint8_t {
   hnc,     ///< as on HNC-8 controls
   num,     ///< as on NUM controls
   g2core,  ///< as on g2core and TinyG
+  haas,    ///< as on Haas controls
 };
 
 /// What the axis words of a block with the code mean.
@@ -66,6 +67,8 @@ struct GCode {
   Origin origin;
   const char* since;    ///< version of Trunnion
   const char* example;  ///< a program of one or more blocks that shows the code
+  /// Why the control accepts the code and does nothing for it; null: it has an effect.
+  const char* no_effect = nullptr;
 };
 
 /// Sorted by number; in codes.cpp.
@@ -73,6 +76,10 @@ extern const std::span<const GCode> g_codes;
 
 /// The code with this number times ten, or nullptr.
 const GCode* g_code(std::uint32_t tenths);
+
+/// What to write instead of a code of other controls that this one does not have, at most 48 characters;
+/// nullptr when nothing is known of the code.
+const char* g_remedy(std::uint32_t tenths);
 
 /// When an M code acts, seen from the motion of its block.
 enum class When : std::uint8_t { before, after };

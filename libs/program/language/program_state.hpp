@@ -45,6 +45,9 @@ struct BlockState {
   std::uint16_t homed = 0;        ///< axes named by the searches so far, bit a for Axis a
   double thread_lead = 0;         ///< F of G33 and G34, mm per revolution; 0 = none yet
   SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
+  std::uint8_t machining_mode =
+      0;                       ///< as G5.1 and its like have chosen it: ModalState::smoothing but for G61.1
+  bool accurate_path = false;  ///< G61.1
   std::uint8_t settings_place = 0;
 };
 

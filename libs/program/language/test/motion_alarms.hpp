@@ -128,7 +128,7 @@ inline std::vector<WrongMotion> wrong_motion() {
       {missing_word, "G54.1", 1, 1, ": G54.1, needs P"},
       {value_range, "G10 L2 P7 X1", 1, 8, ": P7"},
       {value_range, "G10 L30 P1 R1", 1, 5, ": L30"},
-      {value_range, "G5.1 Q3", 1, 6, ": Q3"},
+      {value_range, "G5.1 Q4", 1, 6, ": Q4"},
       {missing_word, "G92", 1, 1, ": G92, needs an axis or S"},
       {thread_lead_missing, "S100 M3\nG33 Z-5", 2, 5, ": Z-5"},
       {thread_lead_missing, "S100 M3\nG33 F0 Z-5", 2, 5, ": F0"},
