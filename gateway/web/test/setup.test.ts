@@ -2,10 +2,12 @@
 import { expect, test } from "vitest";
 import { isEmpty, planeAxes, planeParameter, type PlanePoints } from "../src/state/planes";
 import { changes, remember, undoLast } from "../src/state/undo";
-import { hindrances, isTakenOver, offsetChange, offsetFor, offsetName } from "../src/state/work_zero";
+import { hindrances, isTakenOver, offsetChange, offsetFor, offsetIndices, offsetName } from "../src/state/work_zero";
 
 test("an offset is named as in a program", () => {
-  expect([0, 5, 6, 53].map(offsetName)).toEqual(["G54", "G59", "G54.1 P1", "G54.1 P48"]);
+  expect([0, 5, 6, 53, 54].map(offsetName)).toEqual(["G54", "G59", "G54.1 P1", "G54.1 P48", "EXT"]);
+  expect(offsetIndices).toHaveLength(55);
+  expect(offsetIndices.slice(0, 3)).toEqual([54, 0, 1]);
 });
 
 test("with the offset that is set the position shows what was wanted, whatever tool length and shifts are", () => {

@@ -59,6 +59,7 @@ class ChannelSetup : public language::Environment {
   AxisValues work_offset(std::uint8_t index) const override {
     return index < offsets_.size() ? offsets_[index] : AxisValues{};
   }
+  AxisValues external_offset() const override { return offsets_[language::external_work_offset]; }
   std::optional<double> tool_length(std::uint16_t h) const override;
   bool has_tool(std::uint32_t number) const override { return tools_.empty() || tools_.contains(number); }
   std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
@@ -169,7 +170,7 @@ class ChannelSetup : public language::Environment {
   geometry::AngleTravels rotary_travel_{};
   bool avoid_poles_ = false;
   double pole_range_ = 0;
-  std::array<AxisValues, language::work_offset_count> offsets_{};
+  std::array<AxisValues, language::external_work_offset + 1> offsets_{};
   std::map<std::uint32_t, language::ToolOffset> tools_;
   AxisValues reference_{}, approach_{};
   std::array<AxisValues, 3> numbered_references_{};

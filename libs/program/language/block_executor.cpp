@@ -40,7 +40,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
   state.needs_position = state.homing = false;
   state.homed = 0;
   context_.tables.load(context_.environment);
-  settings.frame.set_work_offset(context_.tables.work_offset(state.modal.work_offset));
+  settings.frame.set_work_offset(context_.tables.workpiece_zero(state.modal.work_offset));
   settings.frame.set_tilt(state.modal.tilt);
   context_.words.configure(context_.environment);
   angle_codes_ = context_.environment.angle_m_codes();

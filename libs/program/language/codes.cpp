@@ -41,8 +41,9 @@ constexpr std::array rows = {
     GCode{90, Group::exact_stop, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::stop_exactly>,
           "exact stop at the end of this block", Origin::iso, "0.2", "G9 G1 X1 F100"},
     GCode{100, Group::one_block, AxisWords::taken, run<&BlockHandlers::tables, &TableCodes::change_table>,
-          "tables: L2 P1..6 and L20 P1..48 work offsets, L10 length, L11 its wear, L12 radius, L13 its wear "
-          "of tool P to R, L50 parameter P to R; without L length Z and radius R of tool P; G91 adds",
+          "tables: L2 P1..6 and L20 P1..48 work offsets, L2 P0 the external one, L10 length, L11 or L1 its "
+          "wear, L12 radius, L13 its wear of tool P to R, L50 parameter P to R; without L length Z and "
+          "radius R of tool P; G91 adds",
           Origin::fanuc, "0.2", "G10 L2 P1 X5"},
     GCode{110, Group::one_block, AxisWords::move,
           run<&BlockHandlers::tables, &TableCodes::end_parameter_input>, "end of the parameter input G10 L50",
@@ -146,8 +147,8 @@ constexpr std::array rows = {
           "move along the tool by L, positive away from its tip; needs tool tip control", Origin::hnc, "0.2",
           "G43.4 H1\nG53.3 L5 F100"},
     GCode{540, Group::work_offset, AxisWords::move,
-          run<&BlockHandlers::frames, &FrameCodes::set_work_offset, 0>, "work offset 1", Origin::iso, "0.1",
-          "G54"},
+          run<&BlockHandlers::frames, &FrameCodes::set_first_work_offset>,
+          "work offset 1; P1..P48 as G54.1, when no other code takes P", Origin::iso, "0.1", "G54"},
     GCode{541, Group::work_offset, AxisWords::move,
           run<&BlockHandlers::frames, &FrameCodes::set_additional_work_offset>,
           "additional work offset P1..P48", Origin::fanuc, "0.2", "G54.1 P1"},

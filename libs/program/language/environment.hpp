@@ -82,6 +82,8 @@ struct ParameterChanges {
 };
 
 inline constexpr std::uint8_t work_offset_count = 54;
+/// The row of a table of work offsets that is added to all others: what Fanuc calls the external one.
+inline constexpr std::uint8_t external_work_offset = work_offset_count;
 
 /// M codes whose block may give an angle by R or P; -1 = none.
 using AngleMCodes = std::array<std::int16_t, 4>;
@@ -94,6 +96,15 @@ class Environment {
   /// Machine coordinates of the zero of work offset `index`: 0 = G54 .. 5 = G59, 6 = G54.1 P1 .. 53 = G54.1
   /// P48; mm and degrees.
   virtual AxisValues work_offset(std::uint8_t index) const = 0;
+  /// What is added to every work offset, mm and degrees.
+  virtual AxisValues external_offset() const { return {}; }
+  /// Machine coordinates of the workpiece zero: the work offset and the external one.
+  AxisValues workpiece_zero(std::uint8_t index) const {
+    AxisValues zero = work_offset(index);
+    const AxisValues external = external_offset();
+    for (std::size_t axis = 0; axis < axis_count; ++axis) zero[axis] += external[axis];
+    return zero;
+  }
   /// Of every program and every line of manual data input of the channel.
   virtual ProgramDialect program_dialect() const { return ProgramDialect::iso; }
   /// External parameter `number` of the NUM dialect, in the unit of its row in num_parameters.hpp; nothing

@@ -11,11 +11,32 @@ constexpr double largest_factor = 1e3;
 
 }  // namespace
 
+// As on Fanuc G54 P1 is G54.1 P1.
+Fault FrameCodes::set_first_work_offset(std::uint16_t at) {
+  return numbers_offset() ? set_additional_work_offset(at) : set_work_offset(at, 0);
+}
+
+bool FrameCodes::numbers_offset() const {
+  constexpr std::uint32_t takers = group_bit(Group::one_block) | group_bit(Group::smoothing) |
+                                   group_bit(Group::scaling) | group_bit(Group::rotation);
+  const GCodes& g = words_.g();
+  if (!words_.has('P') || (g.present() & takers) != 0) return false;
+  if (g.is(Group::path_control, 640) || g.is(Group::motion, 62)) return false;
+  const bool ends_cycle = g.is(Group::cycle, 800) || g.has(Group::motion);
+  const bool cycle = (g.has(Group::cycle) || state_.modal.cycle != 80) && !ends_cycle;
+  const MCodes& m = words_.m();
+  for (std::size_t i = 0; i < m.count; ++i) {
+    const MAction action = m.codes[i].action;
+    if (action == MAction::call || action == MAction::go_back) return false;
+  }
+  return !cycle;
+}
+
 Fault FrameCodes::set_work_offset(std::uint16_t at, std::uint8_t index) {
   if (index == state_.modal.work_offset) return {};
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   state_.modal.work_offset = index;
-  state_.change_frame().set_work_offset(context_.tables.work_offset(index));
+  state_.change_frame().set_work_offset(context_.tables.workpiece_zero(index));
   state_.locate(state_.position);
   return {};
 }
@@ -23,7 +44,10 @@ Fault FrameCodes::set_work_offset(std::uint16_t at, std::uint8_t index) {
 Fault FrameCodes::set_additional_work_offset(std::uint16_t at) {
   if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
   std::uint32_t number = 0;
-  if (const Fault fault = words_.whole_number('P', 1, work_offset_count - 6, number)) return fault;
+  if (Fault fault = words_.whole_number('P', 1, work_offset_count - 6, number)) {
+    if (fault.number == AlarmNumber::value_range) fault.detail = additional_work_offsets;
+    return fault;
+  }
   return set_work_offset(at, static_cast<std::uint8_t>(5 + number));
 }
 

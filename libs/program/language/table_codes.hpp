@@ -28,6 +28,10 @@ class TableCodes : private BlockHandler {
   Fault define_tool(std::uint16_t at);
   Fault change_parameter(char number_letter);
   void store_work_offset(std::uint8_t index, const AxisValues& values);
+  /// Words are in a frame with this row of the table.
+  bool acts(std::uint8_t index) const {
+    return index == state_.modal.work_offset || index == external_work_offset;
+  }
   Fault store_tool(Table table, std::uint16_t number, double value, bool adds, std::uint16_t at);
 
   OffsetTables& tables_;

@@ -87,7 +87,7 @@ language::ProgramFrame ChannelCore::executed_frame(const language::ModalState& m
   if (known != nullptr) return *known;
   language::ProgramFrame frame;
   if (const auto* typed = mdi_.frame()) frame = *typed;
-  frame.set_work_offset(machine_.work_offset(modal.work_offset));
+  frame.set_work_offset(machine_.workpiece_zero(modal.work_offset));
   frame.set_tilt(modal.tilt);
   return frame;
 }

@@ -5,11 +5,13 @@
 import type { Channel } from "./model";
 
 export const axisLetters = "XYZABCUVW";
-/** G54 .. G59 and G54.1 P1 .. P48. */
-export const offsetCount = 54;
+/** Index of the offset that is added to every other. */
+export const externalOffset = 54;
+/** Of the external one, G54 .. G59 and G54.1 P1 .. P48. */
+export const offsetIndices: readonly number[] = [externalOffset, ...Array(externalOffset).keys()];
 
 /** Name of a work offset by its index. */
-export const offsetName = (index: number) => (index < 6 ? `G${54 + index}` : `G54.1 P${index - 5}`);
+export const offsetName = (index: number) => (index === externalOffset ? "EXT" : index < 6 ? `G${54 + index}` : `G54.1 P${index - 5}`);
 
 /** mm or degrees: value of the chosen offset with which the axis would show `wanted` instead of `shown`. */
 export function offsetFor(active: number, shown: number, wanted: number): number {

@@ -8,7 +8,7 @@ import { fixed, refusal, typedNumber } from "../format";
 import type { Channel } from "../state/model";
 import { channel, channels, machine, tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
-import { axisLetters, hindrances, isTakenOver, type OffsetChange, offsetChange, offsetCount, offsetFor, offsetName } from "../state/work_zero";
+import { axisLetters, externalOffset, hindrances, isTakenOver, type OffsetChange, offsetChange, offsetFor, offsetIndices, offsetName } from "../state/work_zero";
 import { text } from "../text/texts";
 import { Cell } from "./Cell";
 import { Guard } from "./Guard";
@@ -37,7 +37,8 @@ async function store(row: WorkOffset, values: number[]): Promise<Answer> {
   const { channel: number, index } = row;
   const send = async (from: number[], to: number[], revision: number) => {
     const one = channels.peek()[String(number)];
-    const change = one?.work_offset === index ? offsetChange(one, from, to, underWay.peek()[number]) : undefined;
+    const acts = index === one?.work_offset || index === externalOffset;
+    const change = one && acts ? offsetChange(one, from, to, underWay.peek()[number]) : undefined;
     const answer = await put("/api/work-offsets", { channel: number, index, values: to, revision });
     if (answer.ok && change) underWay.value = { ...underWay.peek(), [number]: change };
     return answer;
@@ -83,7 +84,8 @@ function FromPosition({ one }: { one: Channel }) {
   const set = (letter: string, column: number) => {
     const entered = typedNumber(wanted.value[letter] || "0");
     if (entered === undefined) return tell(`${letter}: ${t.notANumber}`, true);
-    const active = rowOf(table.peek(), one.channel, one.work_offset).values[column] ?? 0;
+    const acting = chosen.peek() === externalOffset ? externalOffset : one.work_offset;
+    const active = rowOf(table.peek(), one.channel, acting).values[column] ?? 0;
     void save(row.values.map((value, i) => (i === column ? offsetFor(active, shown(letter), entered) : value)), `${name} ${letter}`);
   };
   const add = () => {
@@ -153,7 +155,7 @@ export function WorkOffsets() {
               <tr><td /> {columns.map(({ letter }) => <th class="right" key={letter}>{letter}</th>)}</tr>
             </thead>
             <tbody>
-              {Array.from({ length: offsetCount }, (_, index) => rowOf(table.value, one.channel, index)).map((row) => (
+              {offsetIndices.map((index) => rowOf(table.value, one.channel, index)).map((row) => (
                 <tr key={row.index} class={row.index === one.work_offset ? "chosen" : ""}>
                   <td>
                     <button aria-pressed={row.index === chosen.value} onClick={() => (chosen.value = row.index)}>{offsetName(row.index)}</button>

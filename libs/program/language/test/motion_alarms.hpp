@@ -123,7 +123,7 @@ inline std::vector<WrongMotion> wrong_motion() {
       {tilt_swing_misplaced, "G43.4 H1\nG53.2", 2, 1, ": G53.2"},
       {tilt_active, tilt + "G53.2\nG49", 4, 1, ": G49"},
       {plane_rotary, "G68.2 X0 Y0 Z0 I0 J10 K0\nG53.1\nG0 C10", 3, 1, ": G0"},
-      {value_range, "G54.1 P49", 1, 7, ": P49"},
+      {value_range, "G54.1 P49", 1, 7, ": P49, this control has P1 to P48"},
       {value_range, "G92.1 X1", 1, 7, ": X1"},
       {missing_word, "G54.1", 1, 1, ": G54.1, needs P"},
       {value_range, "G10 L2 P7 X1", 1, 8, ": P7"},

@@ -26,6 +26,7 @@ struct TestMachine : Environment {
   std::map<int, ToolOffset> tools;               // beside lengths
   std::map<int, std::array<Vector3, 3>> planes;  // G68.1 Q
   std::map<int, AxisValues> more_offsets;        // G54.1 P
+  AxisValues added{};                            // G10 L2 P0
   AxisValues last_way{};
   bool diameter = false;
   double factor_unit = 1;
@@ -52,6 +53,7 @@ struct TestMachine : Environment {
     const auto found = more_offsets.find(index - 5);
     return found == more_offsets.end() ? AxisValues{} : found->second;
   }
+  AxisValues external_offset() const override { return added; }
   bool has_tool(std::uint32_t number) const override { return number < 90; }
   std::optional<ToolOffset> tool_offset(std::uint16_t number) const override {
     const auto found = tools.find(number);
