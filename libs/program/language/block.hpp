@@ -58,8 +58,9 @@ struct CallCentre {
   double value = 0;
 };
 
-/// Words behind a comma, kept as two further letters: ,C a chamfer and ,R a rounding at the end of the move.
-inline constexpr char chamfer_word = 'A' + 26, rounding_word = 'A' + 27;
+/// Words behind a comma, kept as further letters: ,C a chamfer and ,R a rounding at the end of the move, ,A
+/// the angle of its line.
+inline constexpr char chamfer_word = 'A' + 26, rounding_word = 'A' + 27, angle_word = 'A' + 28;
 /// The NUM dialect has no commas, but words of two letters: EC, EX and EZ of threads, EK, EH and ER of rigid
 /// tapping.
 inline constexpr char taught_angle_word = 'A' + 26, taught_x_word = 'A' + 27, taught_z_word = 'A' + 28;

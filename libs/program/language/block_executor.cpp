@@ -37,7 +37,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.machining_mode = state.modal.smoothing;
     state.accurate_path = false;
   }
-  state.needs_position = state.homing = false;
+  state.needs_position = state.homing = state.line_open = false;
   state.homed = 0;
   context_.tables.load(context_.environment);
   settings.frame.set_work_offset(context_.tables.workpiece_zero(state.modal.work_offset));

@@ -2,6 +2,7 @@
 #include "language/command_output.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "canonical/turning_speed.hpp"
 #include "language/turned_move.hpp"
@@ -14,20 +15,19 @@ void CommandOutput::start() {
   compensation_.configure(environment_.cutter_settings());
   sequence_ = 0;
   corner_.reset();
-  draining_ = held_too_many_ = corner_lost_ = false;
+  draining_ = held_too_many_ = false;
+  lost_ = AlarmNumber::none;
 }
 
 void CommandOutput::discard() {
-  held_too_many_ = draining_ = corner_lost_ = false;
+  held_too_many_ = draining_ = false;
+  lost_ = AlarmNumber::none;
   corner_.reset();
   queue_->clear();
 }
 
 Fault CommandOutput::check_room() {
-  if (corner_lost_) {
-    corner_lost_ = false;
-    return {AlarmNumber::corner_without_move, 0};
-  }
+  if (lost_ != AlarmNumber::none) return {std::exchange(lost_, AlarmNumber::none), 0};
   if (!held_too_many_) return {};
   held_too_many_ = false;
   return {AlarmNumber::compensation_look_ahead, 0};
@@ -201,9 +201,11 @@ Fault CommandOutput::give(Command command, const AxisValues& start) {
 }
 
 bool CommandOutput::lose_corner() {
-  if (!corner_) return false;
+  if (!corner_ && !state_.line_open) return false;
+  lost_ = state_.line_open ? AlarmNumber::angle_open : AlarmNumber::corner_without_move;
   corner_.reset();
-  return corner_lost_ = true;
+  state_.line_open = false;
+  return true;
 }
 
 Fault CommandOutput::move_with_corner(const Command& move, const AxisValues& program,

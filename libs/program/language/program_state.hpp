@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "language/canonical.hpp"
+#include "language/drawn_line.hpp"
 #include "language/environment.hpp"
 #include "language/hole_cycle.hpp"
 #include "language/program_frame.hpp"
@@ -30,6 +31,7 @@ struct ProgramSettings {
   std::array<double, 2> polar_centre{};
   std::optional<AxisValues> intermediate;  ///< program coordinates, of the last G28 or G30
   CycleWords cycle;
+  OpenLine open_line;  ///< while BlockState::line_open
 };
 
 /// Everything a block can change and a faulty one must not have changed: what is copied at the beginning of
@@ -45,9 +47,9 @@ struct BlockState {
   std::uint16_t homed = 0;        ///< axes named by the searches so far, bit a for Axis a
   double thread_lead = 0;         ///< F of G33 and G34, mm per revolution; 0 = none yet
   SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
-  std::uint8_t machining_mode =
-      0;                       ///< as G5.1 and its like have chosen it: ModalState::smoothing but for G61.1
-  bool accurate_path = false;  ///< G61.1
+  std::uint8_t machining_mode = 0;  ///< of G5.1 and its like: ModalState::smoothing but for G61.1
+  bool accurate_path = false;       ///< G61.1
+  bool line_open = false;           ///< the line of a block with ,A alone waits for the next one
   std::uint8_t settings_place = 0;
 };
 

@@ -49,6 +49,8 @@ inline std::vector<WrongMotion> wrong_motion() {
       {corner_without_move, "G1 X9 ,C1 F1\nM8", 2, 1, ": M8"},
       {corner_too_large, "G1 X9 ,R5 F1\nY4", 2, 1, ": Y4, 5 mm in line 1, moves 9 and 4 mm"},
       {corner_chamfer_arc, "G1 X9 ,C1 F1\nG2 X12 R3", 2, 1, ": G2, 1 mm in line 1, moves 9 and 3.142 mm"},
+      {angle_undetermined, "G1 X1 ,A90 F1", 1, 7, ": ,A90, it never reaches the coordinate"},
+      {angle_open, "G1 ,A9 F1\nX1 Y2", 2, 1, ": X1"},
       {curve_incomplete, "G6.2 P2 K0 F1\nG0 X1", 2, 1, ": G0"},
       {curve_incomplete, "G6.2 P2 K0 F1\nK0 X1", 3, 1, ""},
       {curve_start, "G6.2 P2 K0 X5 F1", 1, 1, ": G6.2"},
