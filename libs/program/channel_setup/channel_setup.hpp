@@ -16,6 +16,7 @@
 #include "geometry/chain.hpp"
 #include "geometry/direction_path.hpp"
 #include "language/environment.hpp"
+#include "language/stroke_zone.hpp"
 #include "machine/axes.hpp"
 #include "machine/spindle_acceleration.hpp"
 #include "machine/stream_settings.hpp"
@@ -81,6 +82,7 @@ class ChannelSetup : public language::Environment {
   /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
   std::optional<double> external_parameter(std::uint32_t number) const override;
   language::ParameterChanges external_changes(std::uint32_t number, double value) const override;
+  bool zone_forbids_outside() const override { return zone_forbids_outside_; }
   bool plane_angles_by_p() const override { return plane_angles_by_p_; }
   bool combined_feed() const override { return limits_.combined_feed; }
   language::CycleSettings cycle_settings() const override { return cycles_; }
@@ -119,6 +121,11 @@ class ChannelSetup : public language::Environment {
   std::string travel_error(const AxisValues& from, const language::Command& move) const;
   /// The same of a way that stays in `box`, with `offset` added in machine coordinates.
   std::string travel_error(const AxisBox& box, const AxisValues& offset, std::uint32_t line) const;
+
+  /// Empty, or how a move that begins at `from`, with `offset` added in machine coordinates, would come where
+  /// `zone` forbids.
+  std::string zone_error(const AxisValues& from, const language::Command& move,
+                         const language::StrokeZone& zone, const AxisValues& offset) const;
 
   const machine::ChannelAxes& channel_axes() const { return channel_axes_; }
   const std::vector<int>& columns() const { return columns_; }
@@ -180,7 +187,7 @@ class ChannelSetup : public language::Environment {
   double jog_renewal_seconds_ = 0.25;
   language::ModalState power_on_;
   language::MFunctions m_functions_;
-  bool plane_angles_by_p_ = false;
+  bool plane_angles_by_p_ = false, zone_forbids_outside_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
   language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;
   struct ExternalParameter {

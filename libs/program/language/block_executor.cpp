@@ -15,7 +15,7 @@ constexpr double read_seconds = 0.01;  // behind which a value is read: the PLC'
 
 /// The groups from `first` to `last`, which act one after the other.
 constexpr std::uint32_t groups(Group first, Group last) { return (group_bit(last) << 1) - group_bit(first); }
-constexpr std::uint32_t frame_groups = groups(Group::scaling, Group::rotation);
+constexpr std::uint32_t frame_groups = groups(Group::stroke_zone, Group::rotation);
 
 }  // namespace
 
@@ -151,7 +151,8 @@ Fault BlockExecutor::check_axis_words(bool& taken) const {
   const bool axes = (words.letters() & axis_bits) != 0;
   std::uint16_t at = 0;
   int takers = 0;
-  for (const Group group : {Group::one_block, Group::scaling, Group::mirror, Group::rotation}) {
+  for (const Group group :
+       {Group::one_block, Group::stroke_zone, Group::scaling, Group::mirror, Group::rotation}) {
     if (!words.g().has(group)) continue;
     const AxisWords use = words.g().code(group).axis_words;
     if (use == AxisWords::move || (use == AxisWords::shared && !axes)) continue;

@@ -30,12 +30,13 @@ enum class Group : std::uint8_t {
   cycle,
   tool_length,
   cutter_compensation,
+  stroke_zone,
   scaling,
   mirror,
   rotation,
   one_block,
 };
-inline constexpr std::size_t group_count = 19;
+inline constexpr std::size_t group_count = 20;
 
 /// Where a code comes from.
 enum class Origin : std::uint8_t {

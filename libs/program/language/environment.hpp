@@ -169,6 +169,8 @@ class Environment {
   /// P of G68.2 states the kind of its angles, as on Fanuc, and not the solution of the rotary axes
   /// (parameter 040989).
   virtual bool plane_angles_by_p() const { return false; }
+  /// The axes may not leave the box of G22; otherwise they may not enter it (parameter 04c730).
+  virtual bool zone_forbids_outside() const { return false; }
   virtual CycleSettings cycle_settings() const { return {}; }
   virtual CutterSettings cutter_settings() const { return {}; }
   /// Origin, a point on +X and a point with positive Y of stored tilted plane `index` 1..20 (G68.1 Q), mm in

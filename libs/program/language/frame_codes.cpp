@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/frame_codes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trunnion::language {
@@ -166,6 +167,35 @@ Fault FrameCodes::clear_shift(std::uint16_t at) {
   }
   if (axes != 0) words_.use_axes();
   state_.locate(state_.position);
+  return {};
+}
+
+// X Y Z are one corner of the box and I J K the opposite one, machine coordinates.
+Fault FrameCodes::set_zone(std::uint16_t at) {
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.find_axes(axes)) return fault;
+  StrokeZone zone;
+  zone.active = true;
+  zone.outside = environment_.zone_forbids_outside();
+  bool bounded = false;
+  for (std::size_t axis = 0; axis < zone.low.size(); ++axis) {
+    const char letter = axis_letters[axis], opposite = static_cast<char>('I' + axis);
+    if (!words_.has(letter) && !words_.has(opposite)) continue;
+    for (const char needed : {letter, opposite})
+      if (!words_.has(needed)) return {AlarmNumber::missing_word, at, needs(needed)};
+    const double a = words_.along(letter, axis), b = words_.along(opposite, axis);
+    if (a == b) return {AlarmNumber::value_range, words_.offset(letter), "the zone has no extent"};
+    zone.low[axis] = std::min(a, b);
+    zone.high[axis] = std::max(a, b);
+    zone.bounded[axis] = bounded = true;
+  }
+  if (!bounded) return {AlarmNumber::missing_word, at, "needs X I, Y J or Z K"};
+  state_.change_frame().set_zone(zone);
+  return {};
+}
+
+Fault FrameCodes::clear_zone(std::uint16_t) {
+  if (state_.frame().zone().active) state_.change_frame().set_zone({});
   return {};
 }
 

@@ -185,6 +185,11 @@ void ProgramFrame::set_tilt(const Tilt& tilt) {
   update();
 }
 
+void ProgramFrame::set_zone(const StrokeZone& zone) {
+  zone_ = zone;
+  update();
+}
+
 bool ProgramFrame::keeps_circles(Plane plane) const {
   const auto [first, second, normal] = plane_axes(plane);
   // Factors are small decimal words; a difference above rounding is meant.

@@ -7,6 +7,7 @@
 
 #include "language/arc_geometry.hpp"
 #include "language/canonical.hpp"
+#include "language/stroke_zone.hpp"
 
 namespace trunnion::language {
 
@@ -69,6 +70,10 @@ class ProgramFrame {
   void set_tilt(const Tilt& tilt);
   const Tilt& tilt() const { return tilt_; }
 
+  /// What G22 forbids moves to do: it has a frame's life, and changes no position.
+  void set_zone(const StrokeZone& zone);
+  const StrokeZone& zone() const { return zone_; }
+
   /// Circles of the plane stay circles: both axes have the same factor but for its sign.
   bool keeps_circles(Plane plane) const;
   /// Clockwise becomes anticlockwise, left becomes right.
@@ -88,6 +93,7 @@ class ProgramFrame {
   Vector3 turned_centre_{};    // after mirror and scaling
   double degrees_ = 0, cosine_ = 1, sine_ = 0;
   Tilt tilt_{};
+  StrokeZone zone_{};
   bool plain_ = true;
   std::uint32_t revision_ = 0;
 };
