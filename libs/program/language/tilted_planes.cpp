@@ -58,8 +58,10 @@ bool tilt_from_points(const std::array<Vector3, 3>& points, Tilt& tilt) {
 
 Fault TiltedPlanes::check() const {
   const GCodes& g = words_.g();
-  const bool swing = g.is(Group::one_block, 531) || g.is(Group::one_block, 532);
-  if (state_.swing_due && !(swing && words_.single_code())) {
+  const bool swing =
+      g.is(Group::one_block, 531) || g.is(Group::one_block, 532) || g.is(Group::one_block, 536);
+  const bool tilts_further = g.is(Group::rotation, 684);
+  if (state_.swing_due && !(swing && words_.single_code()) && !tilts_further) {
     return {AlarmNumber::tilt_swing_missing, words_.first_offset()};
   }
   if (swing && !state_.swing_due) return {AlarmNumber::tilt_swing_misplaced, g.offset(Group::one_block)};
@@ -78,25 +80,43 @@ Fault TiltedPlanes::tilt_to_stored_plane(std::uint16_t at) {
 }
 
 Fault TiltedPlanes::tilt_by_angles(std::uint16_t at, bool turned_axes) {
+  Tilt tilt;
+  bool by_p = false;
+  if (const Fault fault = read_angles(at, turned_axes, tilt, by_p)) return fault;
+  return apply(tilt, by_p);
+}
+
+Fault TiltedPlanes::tilt_in_plane(std::uint16_t at) {
+  const Tilt& plane = state_.modal.tilt;
+  if (!plane.active) return {AlarmNumber::tilt_missing, at};
+  Tilt tilt;
+  bool by_p = false;
+  if (const Fault fault = read_angles(at, true, tilt, by_p)) return fault;
+  const Vector3 origin = state_.frame().turned_by_tilt(tilt.origin);
+  for (std::size_t i = 0; i < origin.size(); ++i) tilt.origin[i] = plane.origin[i] + origin[i];
+  tilt.matrix = multiplied(plane.matrix, tilt.matrix);
+  return apply(tilt, by_p);
+}
+
+Fault TiltedPlanes::read_angles(std::uint16_t at, bool turned_axes, Tilt& tilt, bool& by_p) {
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   for (const char letter : {'X', 'Y', 'Z', 'I', 'J', 'K'}) {
     if (!words_.has(letter)) return {AlarmNumber::missing_word, at, needs(letter)};
     words_.use(letter);
   }
-  const bool by_p = turned_axes && environment_.plane_angles_by_p();
+  by_p = turned_axes && environment_.plane_angles_by_p();
   if (by_p && words_.has('P')) {
     std::uint32_t kind = 0;
     if (const Fault fault = words_.whole_number('P', 0, 1, kind)) return fault;
     turned_axes = kind == 0;
   }
-  Tilt tilt;
   tilt.origin = {words_.axis(X), words_.axis(Y), words_.axis(Z)};
   const double i = words_.value('I');
   const double j = words_.value('J');
   const double k = words_.value('K');
   tilt.matrix = turned_axes ? multiplied(multiplied(rotation(2, i), rotation(0, j)), rotation(2, k))
                             : multiplied(multiplied(rotation(2, k), rotation(1, j)), rotation(0, i));
-  return apply(tilt, by_p);
+  return {};
 }
 
 Fault TiltedPlanes::apply(const Tilt& tilt, bool angles_by_p) {
