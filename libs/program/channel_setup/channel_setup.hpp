@@ -61,6 +61,9 @@ class ChannelSetup : public language::Environment {
     return index < offsets_.size() ? offsets_[index] : AxisValues{};
   }
   AxisValues external_offset() const override { return offsets_[language::external_work_offset]; }
+  AxisValues setting_error(std::uint8_t number) const override {
+    return offsets_.at(static_cast<std::size_t>(language::external_work_offset) + number);
+  }
   std::optional<double> tool_length(std::uint16_t h) const override;
   bool has_tool(std::uint32_t number) const override { return tools_.empty() || tools_.contains(number); }
   std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
@@ -177,7 +180,7 @@ class ChannelSetup : public language::Environment {
   geometry::AngleTravels rotary_travel_{};
   bool avoid_poles_ = false;
   double pole_range_ = 0;
-  std::array<AxisValues, language::external_work_offset + 1> offsets_{};
+  std::array<AxisValues, language::offset_row_count> offsets_{};
   std::map<std::uint32_t, language::ToolOffset> tools_;
   AxisValues reference_{}, approach_{};
   std::array<AxisValues, 3> numbered_references_{};

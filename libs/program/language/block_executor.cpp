@@ -42,6 +42,8 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
   context_.tables.load(context_.environment);
   settings.frame.set_work_offset(context_.tables.workpiece_zero(state.modal.work_offset));
   settings.frame.set_tilt(state.modal.tilt);
+  if (const std::uint8_t error = settings.frame.setting_error().number; error != 0)
+    settings.frame.set_setting_error(error, context_.tables.setting_error(error));
   context_.words.configure(context_.environment);
   angle_codes_ = context_.environment.angle_m_codes();
   context_.output.start();
@@ -63,6 +65,7 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
   if (block.message) context_.output.push(CommandKind::message).number = line_message;
   Fault fault = run(flow);
   if (!fault) fault = context_.output.check_room();
+  if (!fault) fault = {context_.state.setting_fault(), 0, "with the setting error of G54.4"};
   if (fault) {
     context_.state.roll_back();
     context_.output.discard();
@@ -132,6 +135,7 @@ Fault BlockExecutor::resume(CommandQueue& out) {
       fault = handlers_.curve.next_chord();
       break;
   }
+  if (!fault) fault = {context_.state.setting_fault(), 0, "with the setting error of G54.4"};
   if (fault || context_.activity != Activity::none) return fault;
   if (!m_codes_due_) return context_.output.drain();
   m_codes_due_ = false;

@@ -41,7 +41,8 @@ constexpr std::array rows = {
     GCode{90, Group::exact_stop, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::stop_exactly>,
           "exact stop at the end of this block", Origin::iso, "0.2", "G9 G1 X1 F100"},
     GCode{100, Group::one_block, AxisWords::taken, run<&BlockHandlers::tables, &TableCodes::change_table>,
-          "tables: L2 P1..6 and L20 P1..48 work offsets, L2 P0 the external one, L10 length, L11 or L1 its "
+          "tables: L2 P1..6 and L20 P1..48 work offsets, L2 P0 the external one, L23 P1..7 setting errors of "
+          "G54.4, L10 length, L11 or L1 its "
           "wear, L12 radius, L13 its wear of tool P to R, L50 parameter P to R; without L length Z and "
           "radius R of tool P; G91 adds",
           Origin::fanuc, "0.2", "G10 L2 P1 X5"},
@@ -178,6 +179,12 @@ constexpr std::array rows = {
     GCode{541, Group::work_offset, AxisWords::move,
           run<&BlockHandlers::frames, &FrameCodes::set_additional_work_offset>,
           "additional work offset P1..P48", Origin::fanuc, "0.2", "G54.1 P1"},
+    GCode{
+        544, Group::setting_error, AxisWords::move,
+        run<&BlockHandlers::frames, &FrameCodes::set_setting_error>,
+        "setting error P1..P7 of the workpiece: words are in the workpiece as it stands, shifted and turned, "
+        "with tool tip control the tool's direction too; P0 off",
+        Origin::fanuc, "0.3", "G54.4 P1\nG43.4 H1\nG1 X1 F100\nG54.4 P0"},
     GCode{550, Group::work_offset, AxisWords::move,
           run<&BlockHandlers::frames, &FrameCodes::set_work_offset, 1>, "work offset 2", Origin::iso, "0.1",
           "G55"},
@@ -233,8 +240,8 @@ constexpr std::array rows = {
         "tilted plane at X Y Z, turned by I about X, then J about Y, then K about Z, axes fixed; P as G68.1",
         Origin::hnc, "0.2", "G43.4 H1\nG68.3 X0 Y0 Z0 I10 J0 K0\nG53.2"},
     GCode{684, Group::rotation, AxisWords::taken, run<&BlockHandlers::planes, &TiltedPlanes::tilt_in_plane>,
-          "tilted plane in the one that is active: words as G68.2, from its origin and its axes", Origin::fanuc,
-          "0.3", "G43.4 H1\nG68.2 X0 Y0 Z0 I0 J10 K0\nG68.4 X1 Y0 Z0 I90 J5 K0\nG53.2"},
+          "tilted plane in the one that is active: words as G68.2, from its origin and its axes",
+          Origin::fanuc, "0.3", "G43.4 H1\nG68.2 X0 Y0 Z0 I0 J10 K0\nG68.4 X1 Y0 Z0 I90 J5 K0\nG53.2"},
     GCode{690, Group::rotation, AxisWords::move, run<&BlockHandlers::planes, &TiltedPlanes::clear_rotation>,
           "rotation and tilted plane off", Origin::fanuc, "0.2", "G69"},
     GCode{700, Group::one_block, AxisWords::taken, run<&BlockHandlers::cycles, &DrillingCycles::drill_circle>,

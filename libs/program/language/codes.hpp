@@ -31,12 +31,13 @@ enum class Group : std::uint8_t {
   tool_length,
   cutter_compensation,
   stroke_zone,
+  setting_error,
   scaling,
   mirror,
   rotation,
   one_block,
 };
-inline constexpr std::size_t group_count = 20;
+inline constexpr std::size_t group_count = 21;
 
 /// Where a code comes from.
 enum class Origin : std::uint8_t {

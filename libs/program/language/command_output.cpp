@@ -116,10 +116,9 @@ Fault CommandOutput::move_straight(const StraightMove& move, const AxisValues& p
     command.kind = move.kind;
     return move_compensated(command, program);
   }
-  state_.program_position = program;
-  if (!moves) return {};
   const AxisValues start = state_.position;
-  state_.position = target;
+  state_.reach(moves ? target : start, program);
+  if (!moves) return {};
   if (move.kind == CommandKind::line && !move.chord && linear) push_turned_pieces(start);
   Command& command = push(move.kind);
   command.chord = move.chord;
@@ -185,8 +184,7 @@ Command CommandOutput::contour_move(const Command& move, const AxisValues& progr
   command.line = line_;
   command.target = state_.frame().contour_from_program(program);
   command.modal = command_modal();
-  state_.position = state_.command_from_program(program);
-  state_.program_position = program;
+  state_.reach(state_.command_from_program(program), program);
   return command;
 }
 

@@ -84,6 +84,9 @@ struct ParameterChanges {
 inline constexpr std::uint8_t work_offset_count = 54;
 /// The row of a table of work offsets that is added to all others: what Fanuc calls the external one.
 inline constexpr std::uint8_t external_work_offset = work_offset_count;
+/// Behind it are the setting errors, of G54.4 P1 .. P7.
+inline constexpr std::uint8_t setting_error_count = 7;
+inline constexpr std::uint8_t offset_row_count = external_work_offset + 1 + setting_error_count;
 
 /// M codes whose block may give an angle by R or P; -1 = none.
 using AngleMCodes = std::array<std::int16_t, 4>;
@@ -98,6 +101,12 @@ class Environment {
   virtual AxisValues work_offset(std::uint8_t index) const = 0;
   /// What is added to every work offset, mm and degrees.
   virtual AxisValues external_offset() const { return {}; }
+  /// Setting error `number` 1..7 (G54.4 P): where the workpiece stands against its drawing, X Y Z in mm,
+  /// turned by A, B and C degrees about X, then Y, then Z.
+  virtual AxisValues setting_error(std::uint8_t number) const {
+    static_cast<void>(number);
+    return {};
+  }
   /// Machine coordinates of the workpiece zero: the work offset and the external one.
   AxisValues workpiece_zero(std::uint8_t index) const {
     AxisValues zero = work_offset(index);

@@ -170,6 +170,17 @@ Fault FrameCodes::clear_shift(std::uint16_t at) {
   return {};
 }
 
+Fault FrameCodes::set_setting_error(std::uint16_t at) {
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
+  std::uint32_t number = 0;
+  if (const Fault fault = words_.whole_number('P', 0, setting_error_count, number)) return fault;
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  if (state_.modal.plane_only) return {AlarmNumber::tip_control_needed, at};
+  const auto row = static_cast<std::uint8_t>(number);
+  state_.set_setting_error(row, row == 0 ? AxisValues{} : context_.tables.setting_error(row));
+  return {};
+}
+
 // X Y Z are one corner of the box and I J K the opposite one, machine coordinates.
 Fault FrameCodes::set_zone(std::uint16_t at) {
   std::uint32_t axes = 0;

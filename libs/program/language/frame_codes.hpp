@@ -21,6 +21,7 @@ class FrameCodes : private BlockHandler {
   Fault set_local_offset(std::uint16_t at);   ///< G52
   Fault shift_coordinates(std::uint16_t at);  ///< G92
   Fault clear_shift(std::uint16_t at);        ///< G92.1
+  Fault set_setting_error(std::uint16_t at);  ///< G54.4
   Fault set_zone(std::uint16_t at);           ///< G22
   Fault clear_zone(std::uint16_t at);         ///< G23
 

@@ -7,6 +7,8 @@ void OffsetTables::load(const Environment& environment) {
   environment_ = &environment;
   for (std::uint8_t i = 0; i < work_offset_count; ++i) work_offsets_[i] = environment.work_offset(i);
   work_offsets_[external_work_offset] = environment.external_offset();
+  for (std::uint8_t n = 1; n <= setting_error_count; ++n)
+    work_offsets_[static_cast<std::size_t>(external_work_offset) + n] = environment.setting_error(n);
   changed_count_ = 0;
 }
 

@@ -356,8 +356,7 @@ Fault PathMotion::move_on_arc(const Arc& arc, const AxisValues& target) {
   const AxisValues end = state_.command_from_program(target);
   if (output_.turns_in_plane(end)) return {AlarmNumber::plane_rotary, 0};
   state_.to_command_frame(command);
-  state_.position = end;
-  state_.program_position = target;
+  state_.reach(end, target);
   output_.push(CommandKind::arc).arc = command.arc;
   return {};
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "language/alarms.hpp"
 #include "language/canonical.hpp"
 #include "language/drawn_line.hpp"
 #include "language/environment.hpp"
@@ -32,6 +33,9 @@ struct ProgramSettings {
   std::optional<AxisValues> intermediate;  ///< program coordinates, of the last G28 or G30
   CycleWords cycle;
   OpenLine open_line;  ///< while BlockState::line_open
+  /// With a setting error (G54.4): the rotary axes of the position as the words have them, in the frame of
+  /// the commands; those of the position stand so that the tool has that direction in the workpiece as it is.
+  AxisValues drawn_rotary{};
 };
 
 /// Everything a block can change and a faulty one must not have changed: what is copied at the beginning of
@@ -55,7 +59,13 @@ struct BlockState {
 
 class ProgramState : public BlockState {
  public:
-  void begin_block() { saved_ = *this; }
+  /// `machine` must outlive this.
+  explicit ProgramState(const Environment& machine) : environment_(machine) {}
+
+  void begin_block() {
+    saved_ = *this;
+    setting_fault_ = AlarmNumber::none;
+  }
   /// Makes everything what it was at begin_block().
   void roll_back() { static_cast<BlockState&>(*this) = saved_; }
   const BlockState& at_block_begin() const { return saved_; }
@@ -68,6 +78,13 @@ class ProgramState : public BlockState {
 
   /// Takes a position in the frame of the commands, after a move or a change of frames.
   void locate(const AxisValues& command);
+  /// Takes the end of a move, which is `program` in program coordinates.
+  void reach(const AxisValues& command, const AxisValues& program);
+  /// Switches the setting error on or off: the rotary axes of the words stay, so that the next move turns the
+  /// tool.
+  void set_setting_error(std::uint8_t number, const AxisValues& values);
+  /// Why a position since begin_block() cannot be reached with the setting error, or none.
+  AlarmNumber setting_fault() const { return setting_fault_; }
   /// A position in program coordinates, in the frame of the commands.
   AxisValues command_from_program(const AxisValues& program) const;
   /// A command in contour coordinates, in the frame of the commands.
@@ -82,8 +99,17 @@ class ProgramState : public BlockState {
     return modal.transformation == Transformation::none ? modal.tool_length : 0.0;
   }
 
+  bool sets_up_tool() const;
+  Vector3 tool_direction(const AxisValues& rotary) const;
+  /// Turns the rotary axes of the words to those that the workpiece as it stands needs.
+  void set_up_tool(AxisValues& command) const;
+  /// Remembers the rotary axes of a position as the words have them.
+  void keep_drawn(const AxisValues& command);
+
+  const Environment& environment_;
   BlockState saved_;
   std::array<ProgramSettings, 2> settings_;
+  mutable AlarmNumber setting_fault_ = AlarmNumber::none;
 };
 
 }  // namespace trunnion::language

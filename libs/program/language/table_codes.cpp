@@ -31,6 +31,8 @@ Fault TableCodes::change_table(std::uint16_t at) {
     case 2:
     case 20:
       return change_work_offset(at, l);
+    case 23:
+      return change_setting_error(at);
     case 10:
     case 11:
     case 12:
@@ -71,10 +73,36 @@ Fault TableCodes::change_work_offset(std::uint16_t at, std::uint32_t l) {
   return {};
 }
 
+// The letters A B C are angles here, whatever axes the channel has.
+Fault TableCodes::change_setting_error(std::uint16_t at) {
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
+  std::uint32_t number = 0;
+  if (const Fault fault = words_.whole_number('P', 1, setting_error_count, number)) return fault;
+  const auto index = static_cast<std::uint8_t>(external_work_offset + number);
+  if (acts(index)) {
+    if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  }
+  AxisValues values = tables_.work_offset(index);
+  bool named = false;
+  for (const Axis axis : {X, Y, Z, A, B, C}) {
+    const char letter = axis_letters[axis];
+    if (!words_.has(letter)) continue;
+    words_.use(letter);
+    named = true;
+    const double word = words_.value(letter) * (is_rotary(axis) ? 1.0 : words_.length_scale());
+    values[axis] = state_.modal.absolute ? word : values[axis] + word;
+  }
+  if (!named) return {AlarmNumber::missing_word, at, "needs X, Y, Z, A, B or C"};
+  store_work_offset(index, values);
+  return {};
+}
+
 void TableCodes::store_work_offset(std::uint8_t index, const AxisValues& values) {
   tables_.set_work_offset(index, values);
   if (acts(index)) {
+    const std::uint8_t error = state_.frame().setting_error().number;
     state_.change_frame().set_work_offset(tables_.workpiece_zero(state_.modal.work_offset));
+    if (error != 0) state_.change_frame().set_setting_error(error, tables_.setting_error(error));
     state_.locate(state_.position);
   }
   Command& command = output_.push(CommandKind::table);

@@ -2,14 +2,12 @@
 #include "language/tilted_planes.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "language/rotation_matrix.hpp"
 #include "language/tool_vector_motion.hpp"
 
 namespace trunnion::language {
 namespace {
-
-using Matrix3 = std::array<double, 9>;
 
 constexpr double no_length = 1e-9;  // mm
 
@@ -19,26 +17,6 @@ Vector3 product(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 Vector3 divided(const Vector3& a, double by) { return {a[0] / by, a[1] / by, a[2] / by}; }
-
-Matrix3 multiplied(const Matrix3& a, const Matrix3& b) {
-  Matrix3 c{};
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3; ++column) {
-      for (std::size_t k = 0; k < 3; ++k) c[3 * row + column] += a[3 * row + k] * b[3 * k + column];
-    }
-  }
-  return c;
-}
-
-/// Right-handed rotation about X, Y or Z (0, 1, 2).
-Matrix3 rotation(std::size_t axis, double degrees) {
-  const double angle = std::remainder(degrees, 360.0) * (std::numbers::pi / 180.0);
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  if (axis == 0) return {1, 0, 0, 0, c, -s, 0, s, c};
-  if (axis == 1) return {c, 0, s, 0, 1, 0, -s, 0, c};
-  return {c, -s, 0, s, c, 0, 0, 0, 1};
-}
 
 /// Origin, a point on +X, a point with positive Y. False when they lie on a line.
 bool tilt_from_points(const std::array<Vector3, 3>& points, Tilt& tilt) {
@@ -115,7 +93,7 @@ Fault TiltedPlanes::read_angles(std::uint16_t at, bool turned_axes, Tilt& tilt, 
   const double j = words_.value('J');
   const double k = words_.value('K');
   tilt.matrix = turned_axes ? multiplied(multiplied(rotation(2, i), rotation(0, j)), rotation(2, k))
-                            : multiplied(multiplied(rotation(2, k), rotation(1, j)), rotation(0, i));
+                            : roll_pitch_yaw(i, j, k);
   return {};
 }
 
@@ -124,8 +102,11 @@ Fault TiltedPlanes::apply(const Tilt& tilt, bool angles_by_p) {
   if (words_.has('P') && !angles_by_p) {
     if (const Fault fault = words_.whole_number('P', 0, 2, solution)) return fault;
   }
+  // Without tool tip control nothing turns the tool to the workpiece as it stands.
+  if (state_.modal.transformation == Transformation::none && state_.frame().setting_error().number != 0)
+    return {AlarmNumber::tip_control_needed, words_.g().offset(Group::rotation)};
   state_.swing_due = true;
-  // Without tool tip control the length, now or from a later G43, acts along the tool in the plane.
+  // The length, now or from a later G43, acts along the tool in the plane.
   if (state_.modal.transformation == Transformation::none) {
     state_.position = environment_.tip_from_machine(state_.position, state_.modal.tool_length);
     state_.modal.transformation = Transformation::rtcp;
@@ -169,7 +150,7 @@ Fault TiltedPlanes::clear_rotation(std::uint16_t at) {
 // check() has seen to it that the block is due and alone.
 Fault TiltedPlanes::swing(std::uint16_t at, bool keep_tip) {
   if (keep_tip && state_.modal.plane_only) return {AlarmNumber::tip_control_needed, at};
-  const Vector3 direction = state_.frame().turned_by_tilt({0, 0, 1});
+  const Vector3 direction = state_.frame().turned({0, 0, 1});
   const auto turned =
       environment_.orient(direction, state_.position, static_cast<RotaryChoice>(state_.modal.tilt.solution));
   if (!turned) return refuse_orientation(context_, direction, at);

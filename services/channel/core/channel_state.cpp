@@ -132,6 +132,8 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.lines_total = selected().lines;
   const auto& modal = executed_modal();
   s.modal = modal_codes(modal);
+  if (const auto error = machine_.configured() ? executed_frame(modal).setting_error().number : 0; error != 0)
+    s.modal.push_back("G54.4 P" + std::to_string(error));
   const auto drive = link().drive_mode();
   const bool stopped = drive == DriveMode::HELD || drive == DriveMode::OFF;
   s.feed = stream_.moving() && !stopped ? progress_.executed.feed * 60 : 0;

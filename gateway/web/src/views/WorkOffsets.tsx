@@ -62,6 +62,16 @@ async function store(row: WorkOffset, values: number[]): Promise<Answer> {
 /** Columns of the channel's axes. */
 const columnsOf = (one: Channel) => [...axisLetters].map((letter, column) => ({ letter, column })).filter(({ letter }) => one.letters.includes(letter));
 
+/** Those of the table: a setting error has three angles, of whatever axes the channel has to turn. */
+function tableColumns(one: Channel) {
+  const turns = [..."ABC"].some((letter) => one.letters.includes(letter));
+  return [...axisLetters].map((letter, column) => ({ letter, column })).filter(({ letter }) => one.letters.includes(letter) || (turns && "ABC".includes(letter)));
+}
+
+/** Whether a row of the table has a value for the letter. */
+const hasCell = (one: Channel, index: number, letter: string) =>
+  index > externalOffset ? "XYZABC".includes(letter) : one.letters.includes(letter);
+
 function FromPosition({ one }: { one: Channel }) {
   const wanted = useSignal<Record<string, string>>({});
   const deltas = useSignal<Record<string, string>>({});
@@ -73,7 +83,9 @@ function FromPosition({ one }: { one: Channel }) {
   const moving = one.state !== "IDLE" && one.state !== "HELD";
   // The position that the key uses must be that with the offset as it is now.
   const change = underWay.value[one.channel];
-  const usable = turned.length === 0 && !moving && !busy.value && (!change || isTakenOver(change, one));
+  // A position does not say how a workpiece stands.
+  const zero = row.index <= externalOffset;
+  const usable = zero && turned.length === 0 && !moving && !busy.value && (!change || isTakenOver(change, one));
   const save = async (values: number[], what: string) => {
     busy.value = true;
     const answer = await store(row, values);
@@ -141,7 +153,7 @@ export function WorkOffsets() {
   const one = channel.value;
   if (!one) return null;
   const t = text.value;
-  const columns = columnsOf(one);
+  const columns = tableColumns(one);
   return (
     <>
       <section class="list" aria-label={t.workOffsets}>
@@ -163,11 +175,13 @@ export function WorkOffsets() {
                   </td>
                   {columns.map(({ letter, column }) => (
                     <td key={letter} class="right">
-                      <Cell
-                        value={row.values[column] ?? 0}
-                        label={`${offsetName(row.index)} ${letter}`}
-                        store={(value) => store(row, row.values.map((old, i) => (i === column ? value : old)))}
-                      />
+                      {hasCell(one, row.index, letter) && (
+                        <Cell
+                          value={row.values[column] ?? 0}
+                          label={`${offsetName(row.index)} ${letter}`}
+                          store={(value) => store(row, row.values.map((old, i) => (i === column ? value : old)))}
+                        />
+                      )}
                     </td>
                   ))}
                 </tr>

@@ -27,6 +27,7 @@ struct TestMachine : Environment {
   std::map<int, std::array<Vector3, 3>> planes;  // G68.1 Q
   std::map<int, AxisValues> more_offsets;        // G54.1 P
   AxisValues added{};                            // G10 L2 P0
+  std::map<int, AxisValues> setting_errors;      // G54.4 P
   AxisValues last_way{};
   bool diameter = false;
   double factor_unit = 1;
@@ -54,6 +55,10 @@ struct TestMachine : Environment {
     return found == more_offsets.end() ? AxisValues{} : found->second;
   }
   AxisValues external_offset() const override { return added; }
+  AxisValues setting_error(std::uint8_t number) const override {
+    const auto found = setting_errors.find(number);
+    return found == setting_errors.end() ? AxisValues{} : found->second;
+  }
   bool has_tool(std::uint32_t number) const override { return number < 90; }
   std::optional<ToolOffset> tool_offset(std::uint16_t number) const override {
     const auto found = tools.find(number);
