@@ -179,12 +179,12 @@ constexpr std::array rows = {
     GCode{541, Group::work_offset, AxisWords::move,
           run<&BlockHandlers::frames, &FrameCodes::set_additional_work_offset>,
           "additional work offset P1..P48", Origin::fanuc, "0.2", "G54.1 P1"},
-    GCode{
-        544, Group::setting_error, AxisWords::move,
-        run<&BlockHandlers::frames, &FrameCodes::set_setting_error>,
-        "setting error P1..P7 of the workpiece: words are in the workpiece as it stands, shifted and turned, "
-        "with tool tip control the tool's direction too; P0 off",
-        Origin::fanuc, "0.3", "G54.4 P1\nG43.4 H1\nG1 X1 F100\nG54.4 P0"},
+    GCode{544, Group::setting_error, AxisWords::move,
+          run<&BlockHandlers::frames, &FrameCodes::set_setting_error>,
+          "setting error P1..P7 of the workpiece: words are in the workpiece as it is clamped, shifted and "
+          "turned, "
+          "with tool tip control the tool's direction too; P0 off",
+          Origin::fanuc, "0.3", "G54.4 P1\nG43.4 H1\nG1 X1 F100\nG54.4 P0"},
     GCode{550, Group::work_offset, AxisWords::move,
           run<&BlockHandlers::frames, &FrameCodes::set_work_offset, 1>, "work offset 2", Origin::iso, "0.1",
           "G55"},
