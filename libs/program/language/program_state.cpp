@@ -7,7 +7,7 @@
 namespace trunnion::language {
 namespace {
 
-constexpr std::uint16_t rotary_letters = 1u << A | 1u << B | 1u << C;
+constexpr std::uint16_t rotary_letters = (1u << A) | (1u << B) | (1u << C);
 constexpr std::array rotary_axes = {A, B, C, U, V, W};  // U V W may turn the tool, too
 
 }  // namespace
