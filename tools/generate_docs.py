@@ -58,7 +58,7 @@ def parameters():
     out = ["# Parameters", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
            "The number of a parameter is the base of its class, plus 1000 for each unit (channel c, axis a), plus the offset: `10a034` is 100034 "
            "for axis 0 and 112034 for axis 12. Activation: *save* takes effect at once, *reset* at the next reset of a channel, *restart* at the "
-           "start of the cluster. The numbers are those of the HNC-8 manual, with two exceptions: offsets 900 and above are Trunnion's own, and "
+           "start of the cluster. The numbers are those of the HNC-8 manual, with two exceptions: offsets 900 and above, and those of channels from 730 on, are Trunnion's own, and "
            "the manual does not define 30a020 to 30a024 and the numbers that are marked as inferred. Values are changed with `trunnion param`, on the "
            "page, or with `PUT /api/parameters/{number}`.", ""]
     known = set()
@@ -128,8 +128,9 @@ def code_tables():
     dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC", "num": "NUM", "g2core": "g2core", "linuxcnc": "LinuxCNC", "haas": "Haas", "mitsubishi": "Mitsubishi"}
     program = lambda text: "`" + joined(text).replace("\\n", " / ") + "`"
     shown = r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT
-    g = [(int(t), group, joined(text), dialect[o], joined(since), program(example)) for t, group, text, o, since, example in
-         entries(g_path, "GCode", r"(\d+),\s*Group::(\w+),\s*AxisWords::\w+,\s*run<[^>]*>,\s*" + TEXT + shown)]
+    effect = lambda reason: f"; no effect of its own: {joined(reason)}" if reason else ""
+    g = [(int(t), group, joined(text) + effect(reason), dialect[o], joined(since), program(example)) for t, group, text, o, since, example, reason in
+         entries(g_path, "GCode", r"(\d+),\s*Group::(\w+),\s*AxisWords::\w+,\s*run<[^>]*>,\s*" + TEXT + shown + r"(?:,\s*" + TEXT + ")?")]
     c = [(int(first), int(last), joined(text), dialect[o], joined(since), program(example)) for first, last, text, o, since, example in
          entries(calls, "CallCode", r"(\d+),\s*(\d+),\s*CallKind::\w+,\s*" + TEXT + shown)]
     m = [(int(n), when, action, group, joined(text)) for n, when, action, group, text in

@@ -235,7 +235,7 @@ idl::parameters::ParameterRequest work_offset_request(const Json& body) {
   request.revision = revision_of(body);
   idl::parameters::WorkOffset offset{};
   offset.channel = static_cast<std::uint16_t>(whole(required(body, "channel"), "channel", 0, 31));
-  offset.index = static_cast<std::uint8_t>(whole(required(body, "index"), "index", 0, 53));
+  offset.index = static_cast<std::uint8_t>(whole(required(body, "index"), "index", 0, 61));
   const auto& values = required(body, "values");
   if (!values.is_array() || values.size() != 9)
     throw BadRequest("values", "values must be 9 numbers: X Y Z A B C U V W");

@@ -98,7 +98,8 @@ TEST(Requests, AWorkOffsetHasNineNumbers) {
   const Json nine = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   const auto set = work_offset_request({{"channel", 0}, {"index", 5}, {"values", nine}});
   EXPECT_EQ(set.offsets.at(0).values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
-  EXPECT_THROW(work_offset_request({{"channel", 0}, {"index", 54}, {"values", nine}}), BadRequest);
+  EXPECT_EQ(work_offset_request({{"channel", 0}, {"index", 61}, {"values", nine}}).offsets.at(0).index, 61);
+  EXPECT_THROW(work_offset_request({{"channel", 0}, {"index", 62}, {"values", nine}}), BadRequest);
   EXPECT_THROW(work_offset_request({{"channel", 0}, {"index", 0}, {"values", {1, 2}}}), BadRequest);
   EXPECT_THROW(work_offset_request({{"channel", 0}, {"index", 0}}), BadRequest);
 }

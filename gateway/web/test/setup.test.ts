@@ -2,10 +2,12 @@
 import { expect, test } from "vitest";
 import { isEmpty, planeAxes, planeParameter, type PlanePoints } from "../src/state/planes";
 import { changes, remember, undoLast } from "../src/state/undo";
-import { hindrances, isTakenOver, offsetChange, offsetFor, offsetName } from "../src/state/work_zero";
+import { hindrances, isTakenOver, offsetChange, offsetFor, offsetIndices, offsetName } from "../src/state/work_zero";
 
 test("an offset is named as in a program", () => {
-  expect([0, 5, 6, 53].map(offsetName)).toEqual(["G54", "G59", "G54.1 P1", "G54.1 P48"]);
+  expect([0, 5, 6, 53, 54, 55, 61].map(offsetName)).toEqual(["G54", "G59", "G54.1 P1", "G54.1 P48", "EXT", "G54.4 P1", "G54.4 P7"]);
+  expect(offsetIndices).toHaveLength(62);
+  expect(offsetIndices.slice(0, 3)).toEqual([54, 0, 1]);
 });
 
 test("with the offset that is set the position shows what was wanted, whatever tool length and shifts are", () => {
@@ -41,6 +43,7 @@ test("a position is used only when it is that with the changed offset", () => {
 test("rotated, mirrored, scaled and polar coordinates hinder it", () => {
   expect(hindrances(["G0", "G54", "G69", "G50", "G15", "G49"])).toEqual([]);
   expect(hindrances(["G68.2", "G51", "G51.1", "G24", "G16", "G68"])).toEqual(["G68.2", "G51", "G51.1", "G24", "G16", "G68"]);
+  expect(hindrances(["G54", "G54.1 P4", "G54.4 P1"])).toEqual(["G54.4 P1"]);
 });
 
 test("a plane is given by its origin, a point on X and a point on the side of Y", () => {

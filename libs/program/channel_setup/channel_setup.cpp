@@ -146,6 +146,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   handwheel_share_ = p.get(parameter::handwheel_share, channel_);
   jog_renewal_seconds_ = p.get(parameter::jog_renewal_time, channel_);
   plane_angles_by_p_ = p.integer(parameter::plane_angles, channel_) == 1;
+  zone_forbids_outside_ = p.integer(parameter::zone_forbidden, channel_) == 1;
   program_dialect_ = static_cast<language::ProgramDialect>(p.integer(parameter::program_dialect, channel_));
   haas_radius_offsets_ = p.integer(parameter::haas_tool_offsets, channel_) != 0;
   dwell_point_ = static_cast<language::DwellPoint>(p.integer(parameter::dwell_point, channel_));

@@ -17,6 +17,7 @@
 #include "geometry/direction_path.hpp"
 #include "language/environment.hpp"
 #include "language/name_dialects.hpp"
+#include "language/stroke_zone.hpp"
 #include "machine/axes.hpp"
 #include "machine/program_number.hpp"
 #include "machine/spindle_acceleration.hpp"
@@ -62,6 +63,10 @@ class ChannelSetup : public language::Environment {
   AxisValues work_offset(std::uint8_t index) const override {
     return index < offsets_.size() ? offsets_[index] : AxisValues{};
   }
+  AxisValues external_offset() const override { return offsets_[language::external_work_offset]; }
+  AxisValues setting_error(std::uint8_t number) const override {
+    return offsets_.at(static_cast<std::size_t>(language::external_work_offset) + number);
+  }
   std::optional<double> tool_length(std::uint16_t h) const override;
   bool has_tool(std::uint32_t number) const override { return tools_.empty() || tools_.contains(number); }
   std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
@@ -94,6 +99,7 @@ class ChannelSetup : public language::Environment {
   /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
   std::optional<double> external_parameter(std::uint32_t number) const override;
   language::ParameterChanges external_changes(std::uint32_t number, double value) const override;
+  bool zone_forbids_outside() const override { return zone_forbids_outside_; }
   bool plane_angles_by_p() const override { return plane_angles_by_p_; }
   bool combined_feed() const override { return limits_.combined_feed; }
   language::CycleSettings cycle_settings() const override { return cycles_; }
@@ -134,6 +140,11 @@ class ChannelSetup : public language::Environment {
   std::string travel_error(const AxisValues& from, const language::Command& move) const;
   /// The same of a way that stays in `box`, with `offset` added in machine coordinates.
   std::string travel_error(const AxisBox& box, const AxisValues& offset, std::uint32_t line) const;
+
+  /// Empty, or how a move that begins at `from`, with `offset` added in machine coordinates, would come where
+  /// `zone` forbids.
+  std::string zone_error(const AxisValues& from, const language::Command& move,
+                         const language::StrokeZone& zone, const AxisValues& offset) const;
 
   const machine::ChannelAxes& channel_axes() const { return channel_axes_; }
   const std::vector<int>& columns() const { return columns_; }
@@ -185,7 +196,7 @@ class ChannelSetup : public language::Environment {
   geometry::AngleTravels rotary_travel_{};
   bool avoid_poles_ = false;
   double pole_range_ = 0;
-  std::array<AxisValues, language::work_offset_count> offsets_{};
+  std::array<AxisValues, language::offset_row_count> offsets_{};
   std::map<std::uint32_t, language::ToolOffset> tools_;
   AxisValues reference_{}, approach_{};
   std::array<AxisValues, 3> numbered_references_{};
@@ -195,7 +206,7 @@ class ChannelSetup : public language::Environment {
   double jog_renewal_seconds_ = 0.25;
   language::ModalState power_on_;
   language::MFunctions m_functions_;
-  bool plane_angles_by_p_ = false, haas_radius_offsets_ = false;
+  bool plane_angles_by_p_ = false, haas_radius_offsets_ = false, zone_forbids_outside_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
   language::TwoToolWords two_tool_words_ = language::TwoToolWords::refused;
   language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;

@@ -59,8 +59,9 @@ struct CallCentre {
   double value = 0;
 };
 
-/// Words behind a comma, kept as two further letters: ,C a chamfer and ,R a rounding at the end of the move.
-inline constexpr char chamfer_word = 'A' + 26, rounding_word = 'A' + 27;
+/// Words behind a comma, kept as further letters: ,C a chamfer and ,R a rounding at the end of the move, ,A
+/// the angle of its line.
+inline constexpr char chamfer_word = 'A' + 26, rounding_word = 'A' + 27, angle_word = 'A' + 28;
 /// The second of two T words (ISO). No letter of the NUM dialect is twice in a block.
 inline constexpr char second_tool_word = 'A' + 31;
 /// The NUM dialect has no commas, but words of two letters: EC, EX and EZ of threads, EK, EH and ER of rigid

@@ -24,7 +24,7 @@ struct FaultDetail {
 
 struct BlockContext {
   explicit BlockContext(Environment& machine)
-      : environment(machine), words(state.modal), output(machine, state) {}
+      : environment(machine), state(machine), words(state.modal), output(machine, state) {}
   BlockContext(const BlockContext&) = delete;
   BlockContext& operator=(const BlockContext&) = delete;
 

@@ -15,7 +15,7 @@ constexpr double read_seconds = 0.01;  // behind which a value is read: the PLC'
 
 /// The groups from `first` to `last`, which act one after the other.
 constexpr std::uint32_t groups(Group first, Group last) { return (group_bit(last) << 1) - group_bit(first); }
-constexpr std::uint32_t frame_groups = groups(Group::scaling, Group::rotation);
+constexpr std::uint32_t frame_groups = groups(Group::stroke_zone, Group::rotation);
 
 }  // namespace
 
@@ -35,12 +35,16 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.parked = SpindleDirection::stopped;
     state.thread_lead = 0;
     state.length_given = false;
+    state.machining_mode = state.modal.smoothing;
+    state.accurate_path = false;
   }
-  state.needs_position = state.homing = false;
+  state.needs_position = state.homing = state.line_open = false;
   state.homed = 0;
   context_.tables.load(context_.environment);
-  settings.frame.set_work_offset(context_.tables.work_offset(state.modal.work_offset));
+  settings.frame.set_work_offset(context_.tables.workpiece_zero(state.modal.work_offset));
   settings.frame.set_tilt(state.modal.tilt);
+  if (const std::uint8_t error = settings.frame.setting_error().number; error != 0)
+    settings.frame.set_setting_error(error, context_.tables.setting_error(error));
   context_.words.configure(context_.environment);
   angle_codes_ = context_.environment.angle_m_codes();
   context_.output.start();
@@ -62,6 +66,7 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
   if (block.message) context_.output.push(CommandKind::message).number = line_message;
   Fault fault = run(flow);
   if (!fault) fault = context_.output.check_room();
+  if (!fault) fault = {context_.state.setting_fault(), 0, "with the setting error of G54.4"};
   if (fault) {
     context_.state.roll_back();
     context_.output.discard();
@@ -131,6 +136,7 @@ Fault BlockExecutor::resume(CommandQueue& out) {
       fault = handlers_.curve.next_chord();
       break;
   }
+  if (!fault) fault = {context_.state.setting_fault(), 0, "with the setting error of G54.4"};
   if (fault || context_.activity != Activity::none) return fault;
   if (!m_codes_due_) return context_.output.drain();
   m_codes_due_ = false;
@@ -150,7 +156,8 @@ Fault BlockExecutor::check_axis_words(bool& taken) const {
   const bool axes = (words.letters() & axis_bits) != 0;
   std::uint16_t at = 0;
   int takers = 0;
-  for (const Group group : {Group::one_block, Group::scaling, Group::mirror, Group::rotation}) {
+  for (const Group group :
+       {Group::one_block, Group::stroke_zone, Group::scaling, Group::mirror, Group::rotation}) {
     if (!words.g().has(group)) continue;
     const AxisWords use = words.g().code(group).axis_words;
     if (use == AxisWords::move || (use == AxisWords::shared && !axes)) continue;
@@ -173,6 +180,7 @@ Fault BlockExecutor::act() {
     if (const Fault fault = carry_out(frame_groups | group_bit(Group::one_block))) return fault;
     if (taken || one_block) return {};
   }
+  if (context_.words.axes_used()) return {};  // a modal code has taken them
   const ModalState& modal = context_.state.modal;
   if (modal.cycle != 80)
     return handlers_.num_tapping.active() ? handlers_.num_tapping.run() : handlers_.cycles.run();

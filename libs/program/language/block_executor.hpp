@@ -35,7 +35,7 @@ struct Flow {
 ///  1. units, feed mode, F            2. M64 to M66 of the NUM dialect, S    3. T
 ///  4. M that act before the motion   5. plane, distance, path control, work offset, polar, G98 G99, G5.1
 ///  6. tool length, tool tip control, cutter radius compensation, cycle off
-///  7. scaling, mirror, rotation, tilted plane
+///  7. forbidden zone, scaling, mirror, rotation, tilted plane
 ///  8. dwell, table, offset, positioning, cycle or motion
 ///  9. M that act after the motion   10. call, return or end
 /// What a G code does is in the function that its row of `g_codes` names. A block with a fault makes no

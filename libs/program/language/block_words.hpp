@@ -96,6 +96,7 @@ class BlockWords {
 
   void use(char letter) { used_ |= Block::bit(letter); }
   void use_axes() { used_ |= block_->letters & axis_bits; }
+  bool axes_used() const { return (used_ & block_->letters & axis_bits) != 0; }
   bool used(char letter) const { return (used_ & Block::bit(letter)) != 0; }
   /// An alarm at the first word that had no meaning.
   Fault report_unused() const;

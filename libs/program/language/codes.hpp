@@ -31,12 +31,14 @@ enum class Group : std::uint8_t {
   cycle,
   tool_length,
   cutter_compensation,
+  stroke_zone,
+  setting_error,
   scaling,
   mirror,
   rotation,
   one_block,
 };
-inline constexpr std::size_t group_count = 20;
+inline constexpr std::size_t group_count = 22;
 
 /// Where a code comes from.
 enum class Origin : std::uint8_t {
@@ -70,6 +72,8 @@ struct GCode {
   Origin origin;
   const char* since;    ///< version of Trunnion
   const char* example;  ///< a program of one or more blocks that shows the code
+  /// Why the control accepts the code and does nothing for it; null: it has an effect.
+  const char* no_effect = nullptr;
 };
 
 /// Sorted by number; in codes.cpp.

@@ -2,6 +2,7 @@
 #include "language/command_output.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "canonical/turning_speed.hpp"
 #include "language/turned_move.hpp"
@@ -14,20 +15,19 @@ void CommandOutput::start() {
   compensation_.configure(environment_.cutter_settings());
   sequence_ = 0;
   corner_.reset();
-  draining_ = held_too_many_ = corner_lost_ = false;
+  draining_ = held_too_many_ = false;
+  lost_ = AlarmNumber::none;
 }
 
 void CommandOutput::discard() {
-  held_too_many_ = draining_ = corner_lost_ = false;
+  held_too_many_ = draining_ = false;
+  lost_ = AlarmNumber::none;
   corner_.reset();
   queue_->clear();
 }
 
 Fault CommandOutput::check_room() {
-  if (corner_lost_) {
-    corner_lost_ = false;
-    return {AlarmNumber::corner_without_move, 0};
-  }
+  if (lost_ != AlarmNumber::none) return {std::exchange(lost_, AlarmNumber::none), 0};
   if (!held_too_many_) return {};
   held_too_many_ = false;
   return {AlarmNumber::compensation_look_ahead, 0};
@@ -116,10 +116,9 @@ Fault CommandOutput::move_straight(const StraightMove& move, const AxisValues& p
     command.kind = move.kind;
     return move_compensated(command, program);
   }
-  state_.program_position = program;
-  if (!moves) return {};
   const AxisValues start = state_.position;
-  state_.position = target;
+  state_.reach(moves ? target : start, program);
+  if (!moves) return {};
   if (move.kind == CommandKind::line && !move.chord && linear) push_turned_pieces(start);
   Command& command = push(move.kind);
   command.chord = move.chord;
@@ -185,8 +184,7 @@ Command CommandOutput::contour_move(const Command& move, const AxisValues& progr
   command.line = line_;
   command.target = state_.frame().contour_from_program(program);
   command.modal = command_modal();
-  state_.position = state_.command_from_program(program);
-  state_.program_position = program;
+  state_.reach(state_.command_from_program(program), program);
   return command;
 }
 
@@ -201,9 +199,11 @@ Fault CommandOutput::give(Command command, const AxisValues& start) {
 }
 
 bool CommandOutput::lose_corner() {
-  if (!corner_) return false;
+  if (!corner_ && !state_.line_open) return false;
+  lost_ = state_.line_open ? AlarmNumber::angle_open : AlarmNumber::corner_without_move;
   corner_.reset();
-  return corner_lost_ = true;
+  state_.line_open = false;
+  return true;
 }
 
 Fault CommandOutput::move_with_corner(const Command& move, const AxisValues& program,

@@ -46,6 +46,13 @@ class CommandOutput {
     begin(program, line, queue);
     moves_ = exact_stop_once_ = false;
   }
+  /// Where a command belongs, as Command::program and Command::line.
+  struct Place {
+    std::uint32_t program = 0;
+    std::uint32_t line = 0;
+  };
+  Place place() const { return {program_, line_}; }
+  void set_place(Place place) { program_ = place.program, line_ = place.line; }
   /// The rest of a block goes to `queue`, which must be empty.
   void resume(CommandQueue& queue) {
     queue_ = &queue;
@@ -121,7 +128,7 @@ class CommandOutput {
   Command contour_move(const Command& move, const AxisValues& program);
   Fault give(Command command, const AxisValues& start);
   Fault end_corner(Command& move, AxisValues& start);
-  /// The corner that is held has no move behind it: an alarm of check_room().
+  /// The corner that is held, or the line of ,A, has no move behind it: an alarm of check_room().
   bool lose_corner();
   /// Of a move at feed from `start` to the position: the pieces but for the last.
   void push_turned_pieces(const AxisValues& start);
@@ -143,8 +150,8 @@ class CommandOutput {
   bool moves_ = false;
   bool exact_stop_once_ = false;
   bool draining_ = false;
-  bool held_too_many_ = false;  // a command found no place in the compensation
-  bool corner_lost_ = false;    // another command came where a corner needs a move
+  bool held_too_many_ = false;            // a command found no place in the compensation
+  AlarmNumber lost_ = AlarmNumber::none;  // another command came where a corner or a line needs a move
   Command scratch_;
 };
 

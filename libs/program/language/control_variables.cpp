@@ -66,7 +66,8 @@ double external_unit(SpindleValue value, double result) {
 }
 
 bool is_work_offset(VariableKind kind) {
-  return kind == VariableKind::work_offset || kind == VariableKind::extended_work_offset;
+  return kind == VariableKind::external_work_offset || kind == VariableKind::work_offset ||
+         kind == VariableKind::extended_work_offset;
 }
 
 bool is_spindle_order(VariableKind kind) {
@@ -75,6 +76,7 @@ bool is_spindle_order(VariableKind kind) {
 }
 
 std::uint8_t work_offset_index(VariableKind kind, std::uint32_t index) {
+  if (kind == VariableKind::external_work_offset) return external_work_offset;
   return static_cast<std::uint8_t>(index / offsets_apart +
                                    (kind == VariableKind::extended_work_offset ? basic_offsets : 0));
 }
@@ -368,6 +370,7 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
     case VariableKind::active_length:
       result = index == Z ? in_program_units(Z, executor_.modal().tool_length) : 0;
       break;
+    case VariableKind::external_work_offset:
     case VariableKind::work_offset:
     case VariableKind::extended_work_offset: {
       const std::uint32_t axis = index % offsets_apart;

@@ -106,6 +106,11 @@ struct ParameterChanges {
 };
 
 inline constexpr std::uint8_t work_offset_count = 54;
+/// The row of a table of work offsets that is added to all others: what Fanuc calls the external one.
+inline constexpr std::uint8_t external_work_offset = work_offset_count;
+/// Behind it are the setting errors, of G54.4 P1 .. P7.
+inline constexpr std::uint8_t setting_error_count = 7;
+inline constexpr std::uint8_t offset_row_count = external_work_offset + 1 + setting_error_count;
 
 /// M codes whose block may give an angle by R or P; -1 = none.
 using AngleMCodes = std::array<std::int16_t, 4>;
@@ -118,6 +123,21 @@ class Environment {
   /// Machine coordinates of the zero of work offset `index`: 0 = G54 .. 5 = G59, 6 = G54.1 P1 .. 53 = G54.1
   /// P48; mm and degrees.
   virtual AxisValues work_offset(std::uint8_t index) const = 0;
+  /// What is added to every work offset, mm and degrees.
+  virtual AxisValues external_offset() const { return {}; }
+  /// Setting error `number` 1..7 (G54.4 P): where the workpiece stands against its drawing, X Y Z in mm,
+  /// turned by A, B and C degrees about X, then Y, then Z.
+  virtual AxisValues setting_error(std::uint8_t number) const {
+    static_cast<void>(number);
+    return {};
+  }
+  /// Machine coordinates of the workpiece zero: the work offset and the external one.
+  AxisValues workpiece_zero(std::uint8_t index) const {
+    AxisValues zero = work_offset(index);
+    const AxisValues external = external_offset();
+    for (std::size_t axis = 0; axis < axis_count; ++axis) zero[axis] += external[axis];
+    return zero;
+  }
   /// Of lines of manual data input, and of programs whose head and name choose none (parameter 04c959).
   virtual ProgramDialect program_dialect() const { return ProgramDialect::iso; }
   /// That of stored programs of such a name (parameter 04c800); nothing when the name chooses none.
@@ -191,6 +211,8 @@ class Environment {
   /// P of G68.2 states the kind of its angles, as on Fanuc, and not the solution of the rotary axes
   /// (parameter 040989).
   virtual bool plane_angles_by_p() const { return false; }
+  /// The axes may not leave the box of G22; otherwise they may not enter it (parameter 04c730).
+  virtual bool zone_forbids_outside() const { return false; }
   virtual CycleSettings cycle_settings() const { return {}; }
   /// Of G31.`number`, 1 to 3.
   virtual SkipSettings skip_settings(std::uint32_t number) const { return {number + 1, 0}; }

@@ -120,6 +120,8 @@ class Interpreter {
   /// Where the last command that next() gave ends in the workpiece: without offsets and, but for tool tip
   /// control, the tool length.
   AxisValues workpiece(const Command& command) const;
+  /// That of the blocks read so far.
+  const ProgramFrame& frame() const { return executor_.frame(); }
   /// The frame in which a command that next() has just given was programmed.
   const ProgramFrame& frame_of(const Command& command) const {
     return executor_.frame_of(command.modal.frame);

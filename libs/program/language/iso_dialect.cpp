@@ -257,17 +257,17 @@ class BlockReader {
     return &block_.values[index];
   }
 
-  /// ,C or ,R.
+  /// ,C, ,R or ,A.
   Fault comma_word(std::uint16_t at) {
     scanner_.advance();
     const char name = scanner_.more() ? letter(scanner_.peek()) : '\0';
-    if (name != 'C' && name != 'R') return {AlarmNumber::unknown_character, at};
+    if (name != 'C' && name != 'R' && name != 'A') return {AlarmNumber::unknown_character, at};
     scanner_.advance();
     Value value;
     if (const Fault fault = number(at, true, value)) return fault;
     word_is_read_ = true;
     if (!value.given) return {};
-    const char word = name == 'C' ? chamfer_word : rounding_word;
+    const char word = name == 'C' ? chamfer_word : name == 'R' ? rounding_word : angle_word;
     if (block_.has(word)) return {AlarmNumber::letter_twice, at};
     const auto index = static_cast<std::size_t>(word - 'A');
     block_.letters |= Block::bit(word);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/modal_codes.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -11,6 +12,9 @@ namespace trunnion::language {
 namespace {
 
 constexpr double metres_per_foot = 0.3048;
+
+/// Machining modes, as ModalState::smoothing.
+constexpr std::uint8_t usual_mode = 0, high_precision = 1, high_speed = 2;
 
 }  // namespace
 
@@ -181,14 +185,37 @@ Fault ModalCodes::set_return_level(std::uint16_t, bool initial) {
   return {};
 }
 
+void ModalCodes::set_path_control(PathControl control, bool accurate) {
+  state_.modal.path_control = control;
+  state_.accurate_path = accurate;
+  set_mode(state_.machining_mode);
+}
+
+// G61.1 needs one of high precision: the program's own, or that of G5.1 Q1.
+void ModalCodes::set_mode(std::uint8_t mode) {
+  state_.machining_mode = mode;
+  state_.modal.smoothing = state_.accurate_path && mode == usual_mode ? high_precision : mode;
+}
+
 Fault ModalCodes::stop_at_every_end(std::uint16_t) {
-  state_.modal.path_control = PathControl::exact_stop;
+  set_path_control(PathControl::exact_stop, false);
   return {};
 }
 
-Fault ModalCodes::set_continuous_path(std::uint16_t) {
-  state_.modal.path_control = PathControl::continuous;
+Fault ModalCodes::set_accurate_path(std::uint16_t) {
+  set_path_control(PathControl::continuous, true);
   state_.modal.path_tolerance = 0;
+  return {};
+}
+
+Fault ModalCodes::follow_path(std::uint16_t) {
+  set_path_control(PathControl::continuous, false);
+  state_.modal.path_tolerance = 0;
+  return {};
+}
+
+Fault ModalCodes::set_continuous_path(std::uint16_t at) {
+  follow_path(at);
   for (const char letter : {'P', 'Q'}) {
     if (!words_.has(letter)) continue;
     const double tolerance = words_.length(letter);
@@ -211,11 +238,72 @@ Fault ModalCodes::set_polar(std::uint16_t, bool on) {
   return {};
 }
 
+// P10000 is the high-precision contour control of Fanuc, P1 to P3 the high-speed machining of Mitsubishi and
+// Mazak.
+Fault ModalCodes::set_contour_control(std::uint16_t at) {
+  constexpr std::uint32_t highest_high_speed = 3, contour_control = 10000, highest = 99999;
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
+  std::uint32_t p = 0;
+  if (const Fault fault = words_.whole_number('P', 0, highest, p)) return fault;
+  if (p > highest_high_speed && p != contour_control)
+    return {AlarmNumber::value_range, words_.offset('P'), "G5 takes P0, P1 to P3 and P10000"};
+  set_mode(p == 0 ? usual_mode : p == contour_control ? high_precision : high_speed);
+  return {};
+}
+
 Fault ModalCodes::set_smoothing(std::uint16_t at) {
+  constexpr std::uint32_t highest_level = 10, highest_speed_level = 5;
   if (!words_.has('Q')) return {AlarmNumber::missing_word, at, needs('Q')};
   std::uint32_t q = 0;
-  if (const Fault fault = words_.whole_number('Q', 0, 2, q)) return fault;
-  state_.modal.smoothing = static_cast<std::uint8_t>(q);
+  if (const Fault fault = words_.whole_number('Q', 0, 3, q)) return fault;
+  if (q >= high_speed) {
+    if (const Fault fault = take_named_axes()) return fault;
+  }
+  auto mode = static_cast<std::uint8_t>(q < high_speed ? q : high_speed);
+  // R counts from speed to precision. Beside other words it is theirs.
+  const bool alone = words_.g().present() == group_bit(Group::smoothing) &&
+                     (words_.letters() & axis_bits) == 0 && state_.modal.cycle == 80;
+  if (q == 1 && alone && words_.has('R')) {
+    std::uint32_t level = 0;
+    if (const Fault fault = words_.whole_number('R', 1, highest_level, level)) return fault;
+    if (level <= highest_speed_level) mode = high_speed;
+  }
+  set_mode(mode);
+  return {};
+}
+
+// With Q2 and Q3 a Fanuc control takes X0 Y0 Z0 for the axes whose path it smooths, and moves nothing.
+Fault ModalCodes::take_named_axes() {
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.find_axes(axes)) return fault;
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) != 0 && words_.axis(axis) != 0)
+      return {AlarmNumber::value_range, words_.offset(axis_letters[axis]),
+              "only names an axis here: write 0"};
+  }
+  words_.use_axes();
+  return {};
+}
+
+Fault ModalCodes::set_look_ahead(std::uint16_t at) {
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
+  std::uint32_t p = 0;
+  if (const Fault fault = words_.whole_number('P', 0, 1, p)) return fault;
+  set_mode(p == 0 ? usual_mode : high_precision);
+  return {};
+}
+
+// P1 roughs, P3 finishes.
+Fault ModalCodes::set_finish(std::uint16_t) {
+  constexpr std::array<std::uint8_t, 3> modes{usual_mode, high_speed, high_precision};
+  std::uint32_t p = 1;
+  if (words_.has('P')) {
+    if (const Fault fault = words_.whole_number('P', 1, modes.size(), p)) return fault;
+  }
+  const double tolerance = words_.length('E');
+  if (tolerance < 0) return {AlarmNumber::value_range, words_.offset('E')};
+  set_mode(modes[p - 1]);
+  state_.modal.path_tolerance = tolerance;
   return {};
 }
 

@@ -19,10 +19,15 @@ class ModalCodes : private BlockHandler {
   Fault set_distance(std::uint16_t at, bool absolute);
   Fault set_centres(std::uint16_t at, bool absolute);
   Fault set_return_level(std::uint16_t at, bool initial);
-  Fault stop_at_every_end(std::uint16_t at);  ///< G61
-  Fault set_continuous_path(std::uint16_t at);
+  Fault stop_at_every_end(std::uint16_t at);    ///< G61
+  Fault set_accurate_path(std::uint16_t at);    ///< G61.1
+  Fault follow_path(std::uint16_t at);          ///< G62, G63
+  Fault set_continuous_path(std::uint16_t at);  ///< G64
   Fault set_polar(std::uint16_t at, bool on);
-  Fault set_smoothing(std::uint16_t at);
+  Fault set_contour_control(std::uint16_t at);  ///< G5
+  Fault set_smoothing(std::uint16_t at);        ///< G5.1
+  Fault set_look_ahead(std::uint16_t at);       ///< G8
+  Fault set_finish(std::uint16_t at);           ///< G187
   Fault set_motion(std::uint16_t at, std::uint8_t motion);
   Fault set_cycle(std::uint16_t at, std::uint8_t cycle);
 
@@ -36,6 +41,9 @@ class ModalCodes : private BlockHandler {
  private:
   /// T of `word`.
   Fault select_tool(char word);
+  void set_path_control(PathControl control, bool accurate);
+  void set_mode(std::uint8_t mode);
+  Fault take_named_axes();
   Fault check_spindle_speed(double speed);
   /// The block has the lead of a thread, if it has its word.
   bool takes_lead() const;

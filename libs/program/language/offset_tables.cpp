@@ -6,7 +6,17 @@ namespace trunnion::language {
 void OffsetTables::load(const Environment& environment) {
   environment_ = &environment;
   for (std::uint8_t i = 0; i < work_offset_count; ++i) work_offsets_[i] = environment.work_offset(i);
+  work_offsets_[external_work_offset] = environment.external_offset();
+  for (std::uint8_t n = 1; n <= setting_error_count; ++n)
+    work_offsets_[static_cast<std::size_t>(external_work_offset) + n] = environment.setting_error(n);
   changed_count_ = 0;
+}
+
+AxisValues OffsetTables::workpiece_zero(std::uint8_t index) const {
+  AxisValues zero = work_offsets_[index];
+  for (std::size_t axis = 0; axis < axis_count; ++axis)
+    zero[axis] += work_offsets_[external_work_offset][axis];
+  return zero;
 }
 
 std::optional<ToolOffset> OffsetTables::tool(std::uint16_t number) const {

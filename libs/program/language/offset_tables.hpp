@@ -11,6 +11,8 @@
 namespace trunnion::language {
 
 inline constexpr std::uint32_t highest_tool = 65535;
+/// Ends the alarm of a number beyond G54.1 P48.
+inline constexpr const char* additional_work_offsets = "this control has P1 to P48";
 
 /// Work offsets and tool entries as the environment gives them at the start of a program, with the changes
 /// the program makes (G10). Room for a fixed number of changed tools; allocates nothing.
@@ -21,7 +23,14 @@ class OffsetTables {
   /// Takes the tables of `environment`, which must outlive the reading, and forgets all changes.
   void load(const Environment& environment);
 
+  /// `index` as ModalState::work_offset, external_work_offset, or the row of a setting error.
   const AxisValues& work_offset(std::uint8_t index) const { return work_offsets_[index]; }
+  /// As Environment::workpiece_zero().
+  AxisValues workpiece_zero(std::uint8_t index) const;
+  /// As Environment::setting_error().
+  const AxisValues& setting_error(std::uint8_t number) const {
+    return work_offsets_[static_cast<std::size_t>(external_work_offset) + number];
+  }
   void set_work_offset(std::uint8_t index, const AxisValues& values) { work_offsets_[index] = values; }
 
   /// Entry `number` from 1, or nothing when neither the table nor the program defines it.
@@ -31,7 +40,7 @@ class OffsetTables {
 
  private:
   const Environment* environment_ = nullptr;
-  std::array<AxisValues, work_offset_count> work_offsets_{};
+  std::array<AxisValues, offset_row_count> work_offsets_{};
   struct Changed {
     std::uint16_t number = 0;
     ToolOffset tool;

@@ -24,8 +24,10 @@ Fault PathMotion::move() {
   const ModalState& modal = state_.modal;
   if (is_thread(modal.motion)) return cut_thread();
   const bool arc = modal.motion == 2 || modal.motion == 3;
+  const bool drawn = words_.has(angle_word) && modal.motion == 1 && !modal.tool_vector;
   const std::uint32_t moving =
-      words_.letters() & (axis_bits | (arc ? arc_bits : 0u) | (modal.tool_vector ? vector_bits : 0u));
+      words_.letters() & (axis_bits | (arc ? arc_bits : 0u) | (modal.tool_vector ? vector_bits : 0u) |
+                          (drawn ? Block::bit(angle_word) : 0u));
   if (moving == 0) return {};
   std::uint32_t axes = 0;
   if (const Fault fault = words_.find_axes(axes)) return fault;
@@ -40,6 +42,12 @@ Fault PathMotion::move() {
                                                : CommandKind::rapid;
   std::optional<Corner> corner;
   if (const Fault fault = read_corner(corner)) return fault;
+  if (drawn || state_.line_open) {
+    DrawnEnd end{target};
+    if (const Fault fault = complete_line(at, drawn, axes, corner, end)) return fault;
+    if (end.waits) return {};
+    target = end.target;
+  }
   const bool cornered = modal.motion != 0 && !modal.tool_vector && (corner || output_.holds_corner());
   if (!arc && !modal.tool_vector && !cornered) return output_.move_straight({kind}, target);
   std::optional<Vector3> direction;
@@ -64,6 +72,92 @@ Fault PathMotion::move() {
     if (const Fault fault = vectors_.point(*direction, vector_at, target)) return fault;
   }
   return arc ? move_on_arc(made.arc, target) : output_.move_straight({kind}, target);
+}
+
+Fault PathMotion::complete_line(std::uint16_t at, bool drawn, std::uint32_t axes,
+                                const std::optional<Corner>& corner, DrawnEnd& end) {
+  if (state_.line_open) return drawn ? close_line(at, axes, end.target) : Fault{AlarmNumber::angle_open, at};
+  words_.use(angle_word);
+  const std::uint16_t angle_at = words_.offset(angle_word);
+  const PlaneAxes plane = plane_axes(state_.modal.plane);
+  const bool first = ((axes >> plane.first) & 1u) != 0, second = ((axes >> plane.second) & 1u) != 0;
+  if (state_.modal.polar)
+    return {AlarmNumber::angle_undetermined, angle_at, "not in polar coordinates (G16)"};
+  if (!first && !second) {
+    end.waits = true;
+    return open_line(axes, corner);
+  }
+  const DrawnLine line(in_plane(state_.program_position, plane), words_.value(angle_word));
+  const Vector2 words = in_plane(end.target, plane);
+  if (first && second) {
+    if (line.distance(words) <= radius_deviation_) return {};
+    return {AlarmNumber::angle_undetermined, angle_at, "it does not pass through the end"};
+  }
+  const std::optional<Vector2> point = first ? line.at_first(words.u) : line.at_second(words.v);
+  if (!point) return {AlarmNumber::angle_undetermined, angle_at, "it never reaches the coordinate"};
+  end.target[plane.first] = point->u;
+  end.target[plane.second] = point->v;
+  return {};
+}
+
+Fault PathMotion::open_line(std::uint32_t axes, const std::optional<Corner>& corner) {
+  if (axes != 0)
+    return {AlarmNumber::angle_undetermined, words_.offset(angle_word), "needs a coordinate of the plane"};
+  const ModalState& modal = state_.modal;
+  const CommandOutput::Place place = output_.place();
+  OpenLine open;
+  open.degrees = words_.value(angle_word);
+  open.corner = corner;
+  open.program = place.program;
+  open.line = place.line;
+  open.frame = state_.frame().revision();
+  open.plane = modal.plane;
+  open.side = modal.cutter_side;
+  open.modes = MoveModes::of(modal);
+  state_.change_settings().open_line = open;
+  state_.line_open = true;
+  return {};
+}
+
+// The second block has its end and its angle, so the corner is where both lines meet.
+Fault PathMotion::close_line(std::uint16_t at, std::uint32_t axes, const AxisValues& target) {
+  words_.use(angle_word);
+  const OpenLine open = state_.settings().open_line;
+  const ModalState& modal = state_.modal;
+  const PlaneAxes plane = plane_axes(modal.plane);
+  const bool whole = axes == ((1u << plane.first) | (1u << plane.second)) && modal.absolute && !modal.polar;
+  const bool same =
+      open.plane == modal.plane && open.side == modal.cutter_side && open.frame == state_.frame().revision();
+  if (!whole || !same) return {AlarmNumber::angle_open, at};
+  const DrawnLine first(in_plane(state_.program_position, plane), open.degrees);
+  const auto corner = first.meets(DrawnLine(in_plane(target, plane), words_.value(angle_word)));
+  if (!corner)
+    return {AlarmNumber::angle_undetermined, words_.offset(angle_word), "parallel to the line before"};
+  state_.line_open = false;
+  return move_to_corner(open, *corner);
+}
+
+// As its own block would have made it.
+Fault PathMotion::move_to_corner(const OpenLine& open, Vector2 corner) {
+  const PlaneAxes plane = plane_axes(open.plane);
+  AxisValues end = state_.program_position;
+  end[plane.first] = corner.u;
+  end[plane.second] = corner.v;
+  const CommandOutput::Place here = output_.place();
+  const MoveModes now = MoveModes::of(state_.modal);
+  output_.set_place({open.program, open.line});
+  open.modes.give_to(state_.modal);
+  Fault fault;
+  if (open.corner || output_.holds_corner()) {
+    Command made;
+    made.kind = CommandKind::line;
+    fault = output_.move_with_corner(made, end, open.corner);
+  } else {
+    fault = output_.move_straight({CommandKind::line}, end);
+  }
+  now.give_to(state_.modal);
+  output_.set_place(here);
+  return fault;
 }
 
 Fault PathMotion::cut_thread() {
@@ -272,8 +366,7 @@ Fault PathMotion::move_on_arc(const Arc& arc, const AxisValues& target) {
   const AxisValues end = state_.command_from_program(target);
   if (output_.turns_in_plane(end)) return {AlarmNumber::plane_rotary, 0};
   state_.to_command_frame(command);
-  state_.position = end;
-  state_.program_position = target;
+  state_.reach(end, target);
   output_.push(CommandKind::arc).arc = command.arc;
   return {};
 }

@@ -29,6 +29,18 @@ class PathMotion : private BlockHandler {
   /// In contour coordinates.
   Fault find_arc(const AxisValues& target, std::uint16_t at, Arc& arc);
   Fault find_circle(const AxisValues& target, std::uint16_t& at, Arc& arc);
+  /// What is to be known of a line with ,A, or behind one: its end, or that it waits for the next one.
+  struct DrawnEnd {
+    AxisValues target{};
+    bool waits = false;
+  };
+  /// `drawn`: the block has ,A; `axes` those that it names; `end` has its target by the words alone.
+  Fault complete_line(std::uint16_t at, bool drawn, std::uint32_t axes, const std::optional<Corner>& corner,
+                      DrawnEnd& end);
+  Fault open_line(std::uint32_t axes, const std::optional<Corner>& corner);
+  /// Makes the move that waits, up to where it meets the line to `target`.
+  Fault close_line(std::uint16_t at, std::uint32_t axes, const AxisValues& target);
+  Fault move_to_corner(const OpenLine& open, Vector2 corner);
   /// What the block asks for at the end of its move.
   Fault read_corner(std::optional<Corner>& corner);
   Fault set_turns(const AxisValues& target, Arc& arc);

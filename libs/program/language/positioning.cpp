@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/positioning.hpp"
 
+#include <cmath>
+#include <cstdio>
+
 #include "language/letters.hpp"
 
 namespace trunnion::language {
 namespace {
 
 constexpr std::uint32_t highest_skip_input = 4;
+constexpr double reference_window = 1e-3;  // mm or degrees, by which words are rounded
 
 }  // namespace
 
@@ -31,6 +35,64 @@ Fault Positioning::dwell(std::uint16_t at) {
 Fault Positioning::check_machine_coordinates(std::uint16_t at) const {
   if (state_.modal.transformation == Transformation::rtcp) return {AlarmNumber::machine_coordinates_rtcp, at};
   return output_.refuse_in_compensation(at);
+}
+
+// The end is known before anything moves.
+Fault Positioning::check_reference(std::uint16_t at) {
+  if (const Fault fault = check_machine_coordinates(at)) return fault;
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  const AxisValues end = programmed_target(axes);
+  const AxisValues machine = state_.command_from_program(end);
+  const AxisValues reference = environment_.reference_position();
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) == 0) continue;
+    double away = machine[axis] - reference[axis];
+    if (environment_.rotary_way(axis) != canonical::RotaryWay::linear) away = std::remainder(away, 360.0);
+    if (std::abs(away) <= reference_window) continue;
+    FaultDetail& detail = context_.detail;
+    detail.number = AlarmNumber::reference_missed;
+    std::snprintf(detail.text.data(), detail.text.size(), "%c would be at %.4f, not at %.4f",
+                  axis_letters[axis], machine[axis], reference[axis]);
+    return {detail.number, words_.offset(axis_letters[axis])};
+  }
+  return output_.move_straight({CommandKind::rapid}, end);
+}
+
+// D has been taken before the block acts.
+Fault Positioning::find_offset(std::uint16_t at, double& offset) const {
+  offset = 0;
+  const std::uint16_t number = state_.modal.radius_offset;
+  if (number == 0) return {};
+  const auto tool = context_.tables.tool(number);
+  if (!tool || !tool->radius)
+    return {AlarmNumber::radius_undefined, words_.has('D') ? words_.offset('D') : at};
+  offset = *tool->radius + environment_.cutter_settings().wear_sign * tool->radius_wear;
+  return {};
+}
+
+// With G91 a word of 0 goes by the offset alone, and its sign says where to.
+Fault Positioning::move_by_offset(std::uint16_t at, int times) {
+  const ModalState& modal = state_.modal;
+  if (!state_.frame().plain() || modal.polar) return {AlarmNumber::frame_shift, at};
+  if (modal.motion > 1 || modal.tool_vector) return {AlarmNumber::offset_move, at};
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  double offset = 0;
+  if (const Fault fault = find_offset(at, offset)) return fault;
+  AxisValues target = programmed_target(axes);
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) == 0 || is_rotary(axis)) continue;
+    const double way = modal.absolute ? target[axis] - state_.program_position[axis] : words_.axis(axis);
+    if (way == 0 && modal.absolute) continue;
+    const double farther = times * offset;
+    target[axis] += std::signbit(way) ? -farther : farther;
+  }
+  if (modal.motion == 1) {
+    if (const Fault fault = check_feed(at)) return fault;
+  }
+  return output_.move_straight({modal.motion == 1 ? CommandKind::line : CommandKind::rapid}, target);
 }
 
 Fault Positioning::return_to_reference(std::uint16_t at) {

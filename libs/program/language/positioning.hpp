@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dwell, positioning without the modal motion code and homing: G4, G28 .. G31, G53, G60, G159.
+// Dwell, positioning without the modal motion code and homing: G4, G27 .. G31, G45 .. G48, G53, G60, G159.
 #pragma once
 
 #include "language/block_context.hpp"
@@ -11,6 +11,7 @@ class Positioning : private BlockHandler {
   explicit Positioning(BlockContext& context) : BlockHandler(context) {}
 
   Fault dwell(std::uint16_t at);                ///< G4
+  Fault check_reference(std::uint16_t at);      ///< G27
   Fault return_to_reference(std::uint16_t at);  ///< G28
   Fault home(std::uint16_t at);                 ///< G28.2, G159
   /// Of one axis, at the feed per minute; of an axis that the channel does not have nothing (NUM 9990.9).
@@ -21,8 +22,11 @@ class Positioning : private BlockHandler {
   Fault move_until_numbered_skip(std::uint16_t at, std::uint32_t number);  ///< G31.1 .. G31.3
   Fault move_in_machine_coordinates(std::uint16_t at);                     ///< G53
   Fault approach_from_one_side(std::uint16_t at);                          ///< G60
+  /// G45 to G48: the way grows by `times` the radius.
+  Fault move_by_offset(std::uint16_t at, int times);
 
  private:
+  Fault find_offset(std::uint16_t at, double& offset) const;
   Fault check_machine_coordinates(std::uint16_t at) const;
   Fault skip_move(std::uint16_t at, std::uint32_t input);
   /// P is not that of another code of the block.

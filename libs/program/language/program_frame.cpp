@@ -45,7 +45,7 @@ void ProgramFrame::update() {
   cosine_ = turn.cosine;
   sine_ = turn.sine;
   ++revision_;
-  plain_ = mirrored_ == 0 && !scaled_ && !rotated_ && !tilt_.active;
+  plain_ = mirrored_ == 0 && !scaled_ && !rotated_ && !turns();
 }
 
 AxisValues ProgramFrame::contour_from_program(const AxisValues& program) const {
@@ -93,10 +93,15 @@ AxisValues ProgramFrame::program_from_contour(const AxisValues& contour) const {
 }
 
 Vector3 ProgramFrame::turned_by_tilt(const Vector3& d) const {
-  if (!tilt_.active) return d;
-  const auto& m = tilt_.matrix;
-  return {m[0] * d[0] + m[1] * d[1] + m[2] * d[2], m[3] * d[0] + m[4] * d[1] + m[5] * d[2],
-          m[6] * d[0] + m[7] * d[1] + m[8] * d[2]};
+  return tilt_.active ? language::turned(tilt_.matrix, d) : d;
+}
+
+Vector3 ProgramFrame::turned(const Vector3& d) const {
+  return language::turned(setting_.matrix, turned_by_tilt(d));
+}
+
+Vector3 ProgramFrame::turned_back(const Vector3& d) const {
+  return language::turned_back(tilt_.matrix, language::turned_back(setting_.matrix, d));
 }
 
 AxisValues ProgramFrame::command_from_contour(const AxisValues& contour) const {
@@ -105,6 +110,7 @@ AxisValues ProgramFrame::command_from_contour(const AxisValues& contour) const {
     const Vector3 turned = turned_by_tilt({p[X], p[Y], p[Z]});
     for (std::size_t i = 0; i < 3; ++i) p[i] = tilt_.origin[i] + turned[i];
   }
+  if (setting_.number != 0) return set_up(p);
   for (std::size_t i = 0; i < axis_count; ++i) p[i] += total_[i];
   return p;
 }
@@ -112,6 +118,21 @@ AxisValues ProgramFrame::command_from_contour(const AxisValues& contour) const {
 AxisValues ProgramFrame::workpiece_from_command(const AxisValues& command) const {
   AxisValues p = command;
   for (std::size_t i = 0; i < axis_count; ++i) p[i] -= total_[i];
+  if (setting_.number == 0) return p;
+  Vector3 d{};
+  for (std::size_t i = 0; i < 3; ++i) d[i] = command[i] - work_offset_[i] - setting_.offset[i];
+  d = language::turned_back(setting_.matrix, d);
+  for (std::size_t i = 0; i < 3; ++i) p[i] = d[i] - local_[i] - shift_[i];
+  return p;
+}
+
+// What G52 and G92 shift stands as the workpiece does.
+AxisValues ProgramFrame::set_up(AxisValues p) const {
+  Vector3 d{};
+  for (std::size_t i = 0; i < 3; ++i) d[i] = p[i] + local_[i] + shift_[i];
+  d = language::turned(setting_.matrix, d);
+  for (std::size_t i = 0; i < axis_count; ++i) p[i] += total_[i];
+  for (std::size_t i = 0; i < 3; ++i) p[i] = work_offset_[i] + setting_.offset[i] + d[i];
   return p;
 }
 
@@ -182,6 +203,18 @@ void ProgramFrame::clear_rotation() {
 
 void ProgramFrame::set_tilt(const Tilt& tilt) {
   tilt_ = tilt;
+  update();
+}
+
+void ProgramFrame::set_setting_error(std::uint8_t number, const AxisValues& values) {
+  setting_ = {};
+  if (number != 0)
+    setting_ = {number, {values[X], values[Y], values[Z]}, roll_pitch_yaw(values[A], values[B], values[C])};
+  update();
+}
+
+void ProgramFrame::set_zone(const StrokeZone& zone) {
+  zone_ = zone;
   update();
 }
 

@@ -7,8 +7,17 @@
 
 #include "language/arc_geometry.hpp"
 #include "language/canonical.hpp"
+#include "language/rotation_matrix.hpp"
+#include "language/stroke_zone.hpp"
 
 namespace trunnion::language {
+
+/// How the workpiece stands against its drawing (G54.4).
+struct SettingError {
+  std::uint8_t number = 0;  ///< P; 0 = none
+  Vector3 offset{};         ///< mm, of the workpiece zero
+  Matrix3 matrix = no_rotation;
+};
 
 /// The chain of programmable frames. In whatever sequence a program switches them on, a position goes
 /// through them in this one:
@@ -21,7 +30,8 @@ namespace trunnion::language {
 ///   contour   where cutter radius compensation works
 ///     4. tilted plane (G68.1, G68.2, G68.3): rotation matrix and origin
 ///   workpiece what a drawing dimensions
-///     5. G52 + G92 + work offset (G54..G59, G54.1), added
+///     5. G52 + G92, added; then the setting error of the workpiece (G54.4): rotation matrix and offset
+///     6. work offset (G54..G59, G54.1, external), added
 ///   command   as in Command::target, but for the tool length
 ///
 /// Angles in degrees, lengths in mm. Every step can be undone: no factor may be 0.
@@ -39,6 +49,11 @@ class ProgramFrame {
   AxisValues workpiece_from_command(const AxisValues& command) const;
   /// A direction in the tilted plane, in the workpiece frame.
   Vector3 turned_by_tilt(const Vector3& direction) const;
+  /// The same in the frame of the commands, and back.
+  Vector3 turned(const Vector3& direction) const;
+  Vector3 turned_back(const Vector3& direction) const;
+  /// A direction of the words is another one in the frame of the commands.
+  bool turns() const { return tilt_.active || setting_.number != 0; }
 
   /// Only offsets act: a command is the program's position plus total_offset().
   bool plain() const { return plain_; }
@@ -69,6 +84,14 @@ class ProgramFrame {
   void set_tilt(const Tilt& tilt);
   const Tilt& tilt() const { return tilt_; }
 
+  /// X Y Z mm and A B C degrees as Environment::setting_error(); 0: none.
+  void set_setting_error(std::uint8_t number, const AxisValues& values);
+  const SettingError& setting_error() const { return setting_; }
+
+  /// What G22 forbids moves to do: it has a frame's life, and changes no position.
+  void set_zone(const StrokeZone& zone);
+  const StrokeZone& zone() const { return zone_; }
+
   /// Circles of the plane stay circles: both axes have the same factor but for its sign.
   bool keeps_circles(Plane plane) const;
   /// Clockwise becomes anticlockwise, left becomes right.
@@ -76,6 +99,8 @@ class ProgramFrame {
 
  private:
   void update();
+  /// A point of the workpiece, with G52 and G92, in the frame of the commands.
+  AxisValues set_up(AxisValues workpiece) const;
 
   AxisValues work_offset_{}, local_{}, shift_{}, total_{};
   std::uint16_t mirrored_ = 0;  // bit of each axis
@@ -88,6 +113,8 @@ class ProgramFrame {
   Vector3 turned_centre_{};    // after mirror and scaling
   double degrees_ = 0, cosine_ = 1, sine_ = 0;
   Tilt tilt_{};
+  SettingError setting_{};
+  StrokeZone zone_{};
   bool plain_ = true;
   std::uint32_t revision_ = 0;
 };

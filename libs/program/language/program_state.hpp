@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "language/alarms.hpp"
 #include "language/canonical.hpp"
+#include "language/drawn_line.hpp"
 #include "language/environment.hpp"
 #include "language/hole_cycle.hpp"
 #include "language/program_frame.hpp"
@@ -35,6 +37,10 @@ struct ProgramSettings {
   std::array<double, 2> polar_centre{};
   std::optional<AxisValues> intermediate;  ///< program coordinates, of the last G28 or G30
   CycleWords cycle;
+  OpenLine open_line;  ///< while BlockState::line_open
+  /// With a setting error (G54.4): the rotary axes of the position as the words have them, in the frame of
+  /// the commands; those of the position stand so that the tool has that direction in the workpiece as it is.
+  AxisValues drawn_rotary{};
 };
 
 /// Everything a block can change and a faulty one must not have changed: what is copied at the beginning of
@@ -50,6 +56,9 @@ struct BlockState {
   std::uint16_t homed = 0;        ///< axes named by the searches so far, bit a for Axis a
   double thread_lead = 0;         ///< F of G33 and G34, mm per revolution; 0 = none yet
   SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
+  std::uint8_t machining_mode = 0;  ///< of G5.1 and its like: ModalState::smoothing but for G61.1
+  bool accurate_path = false;       ///< G61.1
+  bool line_open = false;           ///< the line of a block with ,A alone waits for the next one
   std::uint8_t settings_place = 0;
   bool length_given = false;       ///< the program has had an H for a tool length
   std::uint16_t length_entry = 0;  ///< the last one
@@ -58,7 +67,13 @@ struct BlockState {
 
 class ProgramState : public BlockState {
  public:
-  void begin_block() { saved_ = *this; }
+  /// `machine` must outlive this.
+  explicit ProgramState(const Environment& machine) : environment_(machine) {}
+
+  void begin_block() {
+    saved_ = *this;
+    setting_fault_ = AlarmNumber::none;
+  }
   /// Makes everything what it was at begin_block().
   void roll_back() { static_cast<BlockState&>(*this) = saved_; }
   const BlockState& at_block_begin() const { return saved_; }
@@ -71,6 +86,13 @@ class ProgramState : public BlockState {
 
   /// Takes a position in the frame of the commands, after a move or a change of frames.
   void locate(const AxisValues& command);
+  /// Takes the end of a move, which is `program` in program coordinates.
+  void reach(const AxisValues& command, const AxisValues& program);
+  /// Switches the setting error on or off: the rotary axes of the words stay, so that the next move turns the
+  /// tool.
+  void set_setting_error(std::uint8_t number, const AxisValues& values);
+  /// Why a position since begin_block() cannot be reached with the setting error, or none.
+  AlarmNumber setting_fault() const { return setting_fault_; }
   /// A position in program coordinates, in the frame of the commands.
   AxisValues command_from_program(const AxisValues& program) const;
   /// A command in contour coordinates, in the frame of the commands.
@@ -85,8 +107,17 @@ class ProgramState : public BlockState {
     return modal.transformation == Transformation::none ? modal.tool_length : 0.0;
   }
 
+  bool sets_up_tool() const;
+  Vector3 tool_direction(const AxisValues& rotary) const;
+  /// Turns the rotary axes of the words to those that the workpiece as it stands needs.
+  void set_up_tool(AxisValues& command) const;
+  /// Remembers the rotary axes of a position as the words have them.
+  void keep_drawn(const AxisValues& command);
+
+  const Environment& environment_;
   BlockState saved_;
   std::array<ProgramSettings, 2> settings_;
+  mutable AlarmNumber setting_fault_ = AlarmNumber::none;
 };
 
 }  // namespace trunnion::language

@@ -25,11 +25,14 @@ Fault TableCodes::end_parameter_input(std::uint16_t) {
 Fault TableCodes::change_table(std::uint16_t at) {
   if (!words_.has('L')) return define_tool(at);
   std::uint32_t l = 0;
-  if (const Fault fault = words_.whole_number('L', 2, 50, l)) return fault;
+  if (const Fault fault = words_.whole_number('L', 1, 50, l)) return fault;
+  if (l == 1) l = 11;  // of older controls
   switch (l) {
     case 2:
     case 20:
       return change_work_offset(at, l);
+    case 23:
+      return change_setting_error(at);
     case 10:
     case 11:
     case 12:
@@ -47,12 +50,16 @@ Fault TableCodes::change_table(std::uint16_t at) {
 Fault TableCodes::change_work_offset(std::uint16_t at, std::uint32_t l) {
   if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
   std::uint32_t number = 0;
-  if (const Fault fault = words_.whole_number('P', 1, l == 2 ? 6 : work_offset_count - 6, number))
+  const bool basic = l == 2;
+  if (Fault fault = words_.whole_number('P', basic ? 0 : 1, basic ? 6 : work_offset_count - 6, number)) {
+    if (!basic && fault.number == AlarmNumber::value_range) fault.detail = additional_work_offsets;
     return fault;
-  const auto index = static_cast<std::uint8_t>(l == 2 ? number - 1 : number + 5);
+  }
+  if (basic && number == 0) number = external_work_offset + 1;
+  const auto index = static_cast<std::uint8_t>(basic ? number - 1 : number + 5);
   std::uint32_t axes = 0;
   if (const Fault fault = words_.take_axes(at, axes)) return fault;
-  if (index == state_.modal.work_offset) {
+  if (acts(index)) {
     if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   }
   AxisValues values = tables_.work_offset(index);
@@ -66,10 +73,36 @@ Fault TableCodes::change_work_offset(std::uint16_t at, std::uint32_t l) {
   return {};
 }
 
+// The letters A B C are angles here, whatever axes the channel has.
+Fault TableCodes::change_setting_error(std::uint16_t at) {
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
+  std::uint32_t number = 0;
+  if (const Fault fault = words_.whole_number('P', 1, setting_error_count, number)) return fault;
+  const auto index = static_cast<std::uint8_t>(external_work_offset + number);
+  if (acts(index)) {
+    if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  }
+  AxisValues values = tables_.work_offset(index);
+  bool named = false;
+  for (const Axis axis : {X, Y, Z, A, B, C}) {
+    const char letter = axis_letters[axis];
+    if (!words_.has(letter)) continue;
+    words_.use(letter);
+    named = true;
+    const double word = words_.value(letter) * (is_rotary(axis) ? 1.0 : words_.length_scale());
+    values[axis] = state_.modal.absolute ? word : values[axis] + word;
+  }
+  if (!named) return {AlarmNumber::missing_word, at, "needs X, Y, Z, A, B or C"};
+  store_work_offset(index, values);
+  return {};
+}
+
 void TableCodes::store_work_offset(std::uint8_t index, const AxisValues& values) {
   tables_.set_work_offset(index, values);
-  if (index == state_.modal.work_offset) {
-    state_.change_frame().set_work_offset(values);
+  if (acts(index)) {
+    const std::uint8_t error = state_.frame().setting_error().number;
+    state_.change_frame().set_work_offset(tables_.workpiece_zero(state_.modal.work_offset));
+    if (error != 0) state_.change_frame().set_setting_error(error, tables_.setting_error(error));
     state_.locate(state_.position);
   }
   Command& command = output_.push(CommandKind::table);
@@ -79,7 +112,7 @@ void TableCodes::store_work_offset(std::uint8_t index, const AxisValues& values)
 }
 
 Fault TableCodes::write_work_offset(std::uint8_t index, std::size_t axis, double value) {
-  if (index == state_.modal.work_offset) {
+  if (acts(index)) {
     if (const Fault fault = output_.refuse_in_compensation(0)) return fault;
   }
   AxisValues values = tables_.work_offset(index);
@@ -138,8 +171,9 @@ Fault TableCodes::define_tool(std::uint16_t at) {
   words_.use('T');
   ToolOffset tool = tables_.tool(static_cast<std::uint16_t>(number)).value_or(ToolOffset{});
   if (!tool.radius) tool.radius = 0;
-  if (words_.has('Z')) tool.length = words_.length('Z');
-  if (words_.has('R')) tool.radius = words_.length('R');
+  const bool adds = !state_.modal.absolute;
+  if (words_.has('Z')) tool.length = (adds ? tool.length : 0.0) + words_.length('Z');
+  if (words_.has('R')) tool.radius = (adds ? *tool.radius : 0.0) + words_.length('R');
   if (!tables_.set_tool(static_cast<std::uint16_t>(number), tool)) {
     return {AlarmNumber::too_many_tools_changed, words_.offset('P')};
   }

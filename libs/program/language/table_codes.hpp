@@ -24,10 +24,17 @@ class TableCodes : private BlockHandler {
 
  private:
   Fault change_work_offset(std::uint16_t at, std::uint32_t l);
+  Fault change_setting_error(std::uint16_t at);
   Fault change_tool(std::uint16_t at, std::uint32_t l);
   Fault define_tool(std::uint16_t at);
   Fault change_parameter(char number_letter);
   void store_work_offset(std::uint8_t index, const AxisValues& values);
+  /// Words are in a frame with this row of the table.
+  bool acts(std::uint8_t index) const {
+    const std::uint8_t error = state_.frame().setting_error().number;
+    return index == state_.modal.work_offset || index == external_work_offset ||
+           (error != 0 && index == external_work_offset + error);
+  }
   Fault store_tool(Table table, std::uint16_t number, double value, bool adds, std::uint16_t at);
 
   OffsetTables& tables_;

@@ -2,14 +2,12 @@
 #include "language/tilted_planes.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "language/rotation_matrix.hpp"
 #include "language/tool_vector_motion.hpp"
 
 namespace trunnion::language {
 namespace {
-
-using Matrix3 = std::array<double, 9>;
 
 constexpr double no_length = 1e-9;                                  // mm
 constexpr std::uint8_t prefers_positive = 3, prefers_negative = 4;  // P
@@ -20,26 +18,6 @@ Vector3 product(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 Vector3 divided(const Vector3& a, double by) { return {a[0] / by, a[1] / by, a[2] / by}; }
-
-Matrix3 multiplied(const Matrix3& a, const Matrix3& b) {
-  Matrix3 c{};
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3; ++column) {
-      for (std::size_t k = 0; k < 3; ++k) c[3 * row + column] += a[3 * row + k] * b[3 * k + column];
-    }
-  }
-  return c;
-}
-
-/// Right-handed rotation about X, Y or Z (0, 1, 2).
-Matrix3 rotation(std::size_t axis, double degrees) {
-  const double angle = std::remainder(degrees, 360.0) * (std::numbers::pi / 180.0);
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  if (axis == 0) return {1, 0, 0, 0, c, -s, 0, s, c};
-  if (axis == 1) return {c, 0, s, 0, 1, 0, -s, 0, c};
-  return {c, -s, 0, s, c, 0, 0, 0, 1};
-}
 
 /// Origin, a point on +X, a point with positive Y. False when they lie on a line.
 bool tilt_from_points(const std::array<Vector3, 3>& points, Tilt& tilt) {
@@ -59,8 +37,10 @@ bool tilt_from_points(const std::array<Vector3, 3>& points, Tilt& tilt) {
 
 Fault TiltedPlanes::check() const {
   const GCodes& g = words_.g();
-  const bool swing = g.is(Group::one_block, 531) || g.is(Group::one_block, 532);
-  if (state_.swing_due && !(swing && words_.single_code())) {
+  const bool swing =
+      g.is(Group::one_block, 531) || g.is(Group::one_block, 532) || g.is(Group::one_block, 536);
+  const bool tilts_further = g.is(Group::rotation, 684);
+  if (state_.swing_due && !(swing && words_.single_code()) && !tilts_further) {
     return {AlarmNumber::tilt_swing_missing, words_.first_offset()};
   }
   if (swing && !state_.swing_due) return {AlarmNumber::tilt_swing_misplaced, g.offset(Group::one_block)};
@@ -79,25 +59,43 @@ Fault TiltedPlanes::tilt_to_stored_plane(std::uint16_t at) {
 }
 
 Fault TiltedPlanes::tilt_by_angles(std::uint16_t at, bool turned_axes) {
+  Tilt tilt;
+  bool by_p = false;
+  if (const Fault fault = read_angles(at, turned_axes, tilt, by_p)) return fault;
+  return apply(tilt, by_p);
+}
+
+Fault TiltedPlanes::tilt_in_plane(std::uint16_t at) {
+  const Tilt& plane = state_.modal.tilt;
+  if (!plane.active) return {AlarmNumber::tilt_missing, at};
+  Tilt tilt;
+  bool by_p = false;
+  if (const Fault fault = read_angles(at, true, tilt, by_p)) return fault;
+  const Vector3 origin = state_.frame().turned_by_tilt(tilt.origin);
+  for (std::size_t i = 0; i < origin.size(); ++i) tilt.origin[i] = plane.origin[i] + origin[i];
+  tilt.matrix = multiplied(plane.matrix, tilt.matrix);
+  return apply(tilt, by_p);
+}
+
+Fault TiltedPlanes::read_angles(std::uint16_t at, bool turned_axes, Tilt& tilt, bool& by_p) {
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   for (const char letter : {'X', 'Y', 'Z', 'I', 'J', 'K'}) {
     if (!words_.has(letter)) return {AlarmNumber::missing_word, at, needs(letter)};
     words_.use(letter);
   }
-  const bool by_p = turned_axes && environment_.plane_angles_by_p();
+  by_p = turned_axes && environment_.plane_angles_by_p();
   if (by_p && words_.has('P')) {
     std::uint32_t kind = 0;
     if (const Fault fault = words_.whole_number('P', 0, 1, kind)) return fault;
     turned_axes = kind == 0;
   }
-  Tilt tilt;
   tilt.origin = {words_.axis(X), words_.axis(Y), words_.axis(Z)};
   const double i = words_.value('I');
   const double j = words_.value('J');
   const double k = words_.value('K');
   tilt.matrix = turned_axes ? multiplied(multiplied(rotation(2, i), rotation(0, j)), rotation(2, k))
-                            : multiplied(multiplied(rotation(2, k), rotation(1, j)), rotation(0, i));
-  return apply(tilt, by_p);
+                            : roll_pitch_yaw(i, j, k);
+  return {};
 }
 
 Fault TiltedPlanes::apply(const Tilt& tilt, bool angles_by_p) {
@@ -105,8 +103,11 @@ Fault TiltedPlanes::apply(const Tilt& tilt, bool angles_by_p) {
   if (words_.has('P') && !angles_by_p) {
     if (const Fault fault = words_.whole_number('P', 0, prefers_negative, solution)) return fault;
   }
+  // Without tool tip control nothing turns the tool to the workpiece as it stands.
+  if (state_.modal.transformation == Transformation::none && state_.frame().setting_error().number != 0)
+    return {AlarmNumber::tip_control_needed, words_.g().offset(Group::rotation)};
   state_.swing_due = true;
-  // Without tool tip control the length, now or from a later G43, acts along the tool in the plane.
+  // The length, now or from a later G43, acts along the tool in the plane.
   if (state_.modal.transformation == Transformation::none) {
     state_.position = environment_.tip_from_machine(state_.position, state_.modal.tool_length);
     state_.modal.transformation = Transformation::rtcp;
@@ -161,7 +162,7 @@ std::optional<AxisValues> TiltedPlanes::rotary_axes(const Vector3& direction) co
 // check() has seen to it that the block is due and alone.
 Fault TiltedPlanes::swing(std::uint16_t at, bool keep_tip) {
   if (keep_tip && state_.modal.plane_only) return {AlarmNumber::tip_control_needed, at};
-  const Vector3 direction = state_.frame().turned_by_tilt({0, 0, 1});
+  const Vector3 direction = state_.frame().turned({0, 0, 1});
   const auto turned = rotary_axes(direction);
   if (!turned) return refuse_orientation(context_, direction, at);
   state_.swing_due = false;

@@ -19,12 +19,10 @@ AxisValues point_on_line(const AxisValues& start, const AxisValues& target, doub
 Fault refuse_direction(BlockContext& context, AlarmNumber number, const Vector3& nearest, std::uint16_t at) {
   if (nearest == Vector3{}) return {number, at};
   const ProgramState& state = context.state;
-  const auto& m = state.frame().tilt().matrix;
-  Vector3 words = nearest;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (state.modal.tool_vector && !state.swing_due)
-      words[i] = m[i] * nearest[0] + m[3 + i] * nearest[1] + m[6 + i] * nearest[2];
-    if (std::abs(words[i]) < 5e-7) words[i] = 0;
+  const bool as_words = state.modal.tool_vector && !state.swing_due;
+  Vector3 words = as_words ? state.frame().turned_back(nearest) : nearest;
+  for (double& word : words) {
+    if (std::abs(word) < 5e-7) word = 0;
   }
   context.detail.number = number;
   std::snprintf(context.detail.text.data(), context.detail.text.size(), "nearest I%.6f J%.6f K%.6f", words[0],
@@ -60,12 +58,14 @@ Fault ToolVectorMotion::read(std::optional<Vector3>& direction, std::uint16_t& a
   const double size = std::hypot(words[0], words[1], words[2]);
   if (!(size > no_length)) return {AlarmNumber::tool_vector_zero, at};
   for (double& word : words) word /= size;
-  direction = state_.frame().turned_by_tilt(words);
+  direction = state_.frame().turned(words);
   return {};
 }
 
 Fault ToolVectorMotion::point(const Vector3& direction, std::uint16_t at, AxisValues& target) {
-  const auto turned = environment_.orient(direction, state_.position, RotaryChoice::continuous);
+  // The words of the rotary axes are those of the drawing, whatever the setting error.
+  const Vector3 drawn = turned_back(state_.frame().setting_error().matrix, direction);
+  const auto turned = environment_.orient(drawn, state_.position, RotaryChoice::continuous);
   if (!turned) return refuse_orientation(context_, direction, at);
   const AxisValues& offset = state_.frame().total_offset();
   for (const Axis axis : {A, B, C, U, V, W}) target[axis] = (*turned)[axis] - offset[axis];

@@ -120,12 +120,26 @@ std::string ProgramFlow::travel_error(const AxisValues& from) {
   return error;
 }
 
+std::string ProgramFlow::zone_error(const AxisValues& from) const {
+  const auto* frame = frames_.newest();
+  if (machine_ == nullptr || frame == nullptr || !frame->zone().active) return "";
+  return machine_->zone_error(from, command_, frame->zone(), offset_.value_or(AxisValues{}));
+}
+
+FlowState ProgramFlow::check_way(const AxisValues& from) {
+  constexpr auto forbidden = language::AlarmNumber::zone_entered;
+  if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
+  if (const auto error = zone_error(from); !error.empty())
+    return fail(forbidden, fmt::format("{}: {}", language::alarm_text(forbidden), error));
+  return FlowState::full;
+}
+
 FlowState ProgramFlow::push_move() {
   // The drive gives the stream no place before every axis has its reference.
   if (!without_reference_.empty()) return fail_without_reference();
   const auto& from = motion_->end_position();
   if (command_.kind != CommandKind::dwell && command_.kind != CommandKind::read) {
-    if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
+    if (const auto state = check_way(from); state != FlowState::full) return state;
     if (const auto state = ask_guard(from); state != FlowState::full) return state;
   }
   auto move = command_.kind == CommandKind::tap      ? Tapping::line(command_)
@@ -171,7 +185,7 @@ FlowState ProgramFlow::take_leg() {
         fmt::format("{}: it has more than {} blocks; end it with G9, or make it of fewer blocks",
                     language::alarm_text(language::AlarmNumber::thread_impossible), ThreadPath::most_legs));
   const auto from = legs_.empty() ? motion_->end_position() : legs_.back().target;
-  if (const auto error = travel_error(from); !error.empty()) return fail(alarm::travel_limit, error);
+  if (const auto state = check_way(from); state != FlowState::full) return state;
   auto free = ask_guard(from);
   while (free == FlowState::waiting) {
     guard_->begin_call();

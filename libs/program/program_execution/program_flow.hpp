@@ -198,6 +198,10 @@ class ProgramFlow {
   void note_motion();
   /// Empty, or the line of the axis that the pending move would take out of its travel.
   std::string travel_error(const AxisValues& from);
+  /// Empty, or how it would come where the zone of its frame forbids.
+  std::string zone_error(const AxisValues& from) const;
+  /// Full: neither travel nor zone stops the pending move. Else alarm.
+  FlowState check_way(const AxisValues& from);
   FlowState push_move();
   /// 1/min that a feed per revolution of `move` from `from` counts with.
   double speed_of_feed(const AxisValues& from, const language::Command& move) const;

@@ -41,7 +41,7 @@ class Tracer {
       case CommandKind::arc: {
         trace(from, command);
         out_.feed_lines.insert(command.line);
-        const auto offset = environment_.work_offset(command.modal.work_offset);
+        const auto offset = environment_.workpiece_zero(command.modal.work_offset);
         out_.zero = {offset[0], offset[1], offset[2]};
         break;
       }

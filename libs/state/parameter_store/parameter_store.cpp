@@ -239,10 +239,10 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
       if (auto error = tool_tables::check_offset(offset); !error.empty()) return error;
       auto& entry = next.offsets[{offset.channel, offset.index}];
       if (entry.values == offset.values) continue;
-      journal.push_back(line(time, who, journal.size() + 1, "work_offset",
-                             std::to_string(offset.channel) + ":G" + std::to_string(54 + offset.index),
-                             entry.values.empty() ? nlohmann::json() : nlohmann::json(entry.values),
-                             offset.values));
+      journal.push_back(
+          line(time, who, journal.size() + 1, "work_offset",
+               std::to_string(offset.channel) + ":" + tool_tables::work_offset_code(offset.index),
+               entry.values.empty() ? nlohmann::json() : nlohmann::json(entry.values), offset.values));
       entry = offset;
     }
     if (next.offsets.size() > most_offsets) return "at most 192 work offsets";

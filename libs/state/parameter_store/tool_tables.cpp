@@ -77,7 +77,10 @@ std::string check_tool(const idl::parameters::Tool& tool) {
 }
 
 std::string work_offset_code(std::uint8_t index) {
-  return index < 6 ? "G" + std::to_string(54 + index) : "G54.1P" + std::to_string(index - 5);
+  constexpr std::uint8_t basic = 6, external = 54;
+  if (index == external) return "EXT";
+  if (index > external) return "G54.4P" + std::to_string(index - external);
+  return index < basic ? "G" + std::to_string(54 + index) : "G54.1P" + std::to_string(index - basic + 1);
 }
 
 std::string check_offset(const idl::parameters::WorkOffset& offset) {
@@ -186,7 +189,7 @@ Offsets read_offsets(const std::string& text, const std::string& file, std::uint
         while (index < work_offset_count && work_offset_code(index) != code) ++index;
         if (index == work_offset_count)
           throw std::runtime_error(machine::at(file, entry.second) + "'" + code +
-                                   "' is not G54 .. G59 or G54.1P1 .. G54.1P48");
+                                   "' is not G54 .. G59, G54.1P1 .. G54.1P48, EXT or G54.4P1 .. G54.4P7");
         offset.index = index;
       } else {
         throw std::runtime_error(machine::at(file, entry.first) + "unknown key '" + key + "'");

@@ -11,14 +11,15 @@
 namespace trunnion::tool_tables {
 
 using Tools = std::map<std::uint32_t, idl::parameters::Tool>;
-/// By channel and index (0 = G54 .. 5 = G59).
+/// By channel and index (0 = G54 .. 5 = G59, 6 = G54.1 P1 .. 53 = G54.1 P48, 54 the external one).
 using Offsets = std::map<std::pair<std::uint16_t, std::uint8_t>, idl::parameters::WorkOffset>;
 
 /// Empty, or one line that names the tool, the field and its limits.
 std::string check_tool(const idl::parameters::Tool& tool);
-/// Most work offsets of a channel: G54 .. G59 are 0 .. 5, G54.1 P1 .. P48 are 6 .. 53.
-inline constexpr std::uint8_t work_offset_count = 54;
-/// "G54" .. "G59", "G54.1P1" .. "G54.1P48".
+/// Rows of a channel: G54 .. G59 are 0 .. 5, G54.1 P1 .. P48 are 6 .. 53, what is added to all of them 54,
+/// and the setting errors 55 .. 61.
+inline constexpr std::uint8_t work_offset_count = 62;
+/// "G54" .. "G59", "G54.1P1" .. "G54.1P48", "EXT", "G54.4P1" .. "G54.4P7".
 std::string work_offset_code(std::uint8_t index);
 
 /// Empty, or one line that names channel, offset, axis and limits.

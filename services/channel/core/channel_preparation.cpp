@@ -57,7 +57,9 @@ void ChannelCore::prepare_entry() {
   preparation.moves = approach_moves(machine_start_, target, line);
   if (restart_ && is_near(machine_start_, target) && preparation.moves.size() > 1)
     preparation.moves.erase(preparation.moves.begin());
-  const auto error = approach_error(machine_, machine_start_, preparation.moves);
+  const auto* frame =
+      by_line ? &program_flow_.interpreter().frame() : program_flow_.frames().at(restart_->sequence);
+  const auto error = approach_error(machine_, machine_start_, preparation.moves, frame);
   const auto place = selected().name + ":" + std::to_string(line) + ": ";
   if (by_line && modal.tool != tool_) {
     event(alarm::search_failed, place + "needs tool T" + std::to_string(modal.tool) + ", T" +
@@ -167,7 +169,8 @@ Answer ChannelCore::continue_after_suspension() {
   Preparation preparation;
   preparation.functions = program_flow_.auxiliaries().functions_changed_by(suspended.mdi_functions);
   preparation.moves = approach_moves(machine_start_, suspended.machine, suspended.progress.executed.line);
-  if (const auto error = approach_error(machine_, machine_start_, preparation.moves); !error.empty())
+  const auto* frame = program_flow_.frames().at(suspended.progress.executed.sequence);
+  if (const auto error = approach_error(machine_, machine_start_, preparation.moves, frame); !error.empty())
     return refuse(alarm::travel_limit, "On the return to line " + error);
   if (const auto tap = tap_words(machine_start_); !tap.empty() && !preparation.moves.empty())
     return refuse_with_tap(tap);

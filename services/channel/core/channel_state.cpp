@@ -87,7 +87,7 @@ language::ProgramFrame ChannelCore::executed_frame(const language::ModalState& m
   if (known != nullptr) return *known;
   language::ProgramFrame frame;
   if (const auto* typed = mdi_.frame()) frame = *typed;
-  frame.set_work_offset(machine_.work_offset(modal.work_offset));
+  frame.set_work_offset(machine_.workpiece_zero(modal.work_offset));
   frame.set_tilt(modal.tilt);
   return frame;
 }
@@ -132,6 +132,8 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.lines_total = selected().lines;
   const auto& modal = executed_modal();
   s.modal = modal_codes(modal);
+  if (const auto error = machine_.configured() ? executed_frame(modal).setting_error().number : 0; error != 0)
+    s.modal.push_back("G54.4 P" + std::to_string(error));
   const auto drive = link().drive_mode();
   const bool stopped = drive == DriveMode::HELD || drive == DriveMode::OFF;
   s.feed = stream_.moving() && !stopped ? progress_.executed.feed * 60 : 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preparation.hpp"
 
+#include <fmt/core.h>
+
 #include <cstdio>
 
 namespace trunnion::channel {
@@ -32,10 +34,15 @@ std::vector<language::Command> approach_moves(const AxisValues& from, const Axis
 }
 
 std::string approach_error(const channel_setup::ChannelSetup& machine, const AxisValues& from,
-                           const std::vector<language::Command>& moves) {
+                           const std::vector<language::Command>& moves, const language::ProgramFrame* frame) {
   AxisValues at = from;
   for (const auto& move : moves) {
     if (auto error = machine.travel_error(at, move); !error.empty()) return error;
+    if (frame != nullptr && frame->zone().active) {
+      const auto error = machine.zone_error(at, move, frame->zone(), {});
+      if (!error.empty())
+        return fmt::format("{}: the approach is not where the zone of G22 permits: {}", move.line, error);
+    }
     at = move.target;
   }
   return "";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "channel_setup/channel_setup.hpp"
+#include "language/program_frame.hpp"
 #include "program_execution/auxiliary_memory.hpp"
 
 namespace trunnion::channel {
@@ -26,9 +27,11 @@ struct Preparation {
 std::vector<language::Command> approach_moves(const AxisValues& from, const AxisValues& to,
                                               std::uint32_t line);
 
-/// The first thing wrong with the approach: an axis would leave its travel. Empty when it is right.
+/// The first thing wrong with the approach: an axis would leave its travel, or come where the zone of `frame`
+/// (null: none is known) forbids. Empty when it is right.
 std::string approach_error(const channel_setup::ChannelSetup& machine, const AxisValues& from,
-                           const std::vector<language::Command>& moves);
+                           const std::vector<language::Command>& moves,
+                           const language::ProgramFrame* frame = nullptr);
 
 /// In words for the operator, e.g. "S1000 M3 M8, approach X10.0000 Y5.0000, then Z-3.0000".
 std::string words_of(const Preparation& preparation, const AxisValues& from);

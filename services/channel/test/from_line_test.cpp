@@ -28,6 +28,22 @@ TEST(Approach, GoesUpBeforeItGoesOverAndDownAfter) {
   EXPECT_TRUE(approach_moves(low, low, 7).empty());
 }
 
+TEST(Approach, IsRefusedWhereAZoneForbidsIt) {
+  channel_setup::ChannelSetup machine(0);
+  machine.configure(*testing::three_axes());
+  const AxisValues from{}, to{100, 0, 0};
+  const auto moves = approach_moves(from, to, 7);
+  language::ProgramFrame frame;
+  EXPECT_EQ(approach_error(machine, from, moves, &frame), "");
+  language::StrokeZone zone;
+  zone.active = zone.bounded[0] = true;
+  zone.low[0] = 50, zone.high[0] = 60;
+  frame.set_zone(zone);
+  EXPECT_EQ(approach_error(machine, from, moves, &frame),
+            "7: the approach is not where the zone of G22 permits: it would enter it at X 50.0000");
+  EXPECT_EQ(approach_error(machine, from, moves), "");
+}
+
 const char* const part =
     "G90 G21 G54\n"    // 1
     "T1 M6\n"          // 2

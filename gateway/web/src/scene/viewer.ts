@@ -10,6 +10,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { PlannedPath } from "../contract";
 import type { Channel } from "../state/model";
 import type { History } from "../state/history";
+import { externalOffset } from "../state/work_zero";
 import { DrawnBodies, isDrawn } from "./bodies";
 import type { Angles, Vector } from "./chain";
 import { type MachineData, toolLength } from "./machine_data";
@@ -352,8 +353,10 @@ export class Viewer {
       }
     });
 
-    const offset = offsets.find((one) => one.channel === channel.channel && one.index === channel.work_offset)?.values ?? [];
-    this.zero.position.set(offset[0] ?? 0, offset[1] ?? 0, offset[2] ?? 0);
+    const offset = (index: number) => offsets.find((one) => one.channel === channel.channel && one.index === index)?.values ?? [];
+    const active = offset(channel.work_offset), external = offset(externalOffset);
+    const zero = [0, 1, 2].map((axis) => (active[axis] ?? 0) + (external[axis] ?? 0)) as Vector;
+    this.zero.position.set(...zero);
     const tip = vector(head.tip);
     // The travel is that of the axes; drawn for the tip, so that the tip touches the box where an axis ends.
     const [x, y, z] = chain.directions(angles) as [Vector, Vector, Vector];

@@ -5,11 +5,16 @@
 import type { Channel } from "./model";
 
 export const axisLetters = "XYZABCUVW";
-/** G54 .. G59 and G54.1 P1 .. P48. */
-export const offsetCount = 54;
+/** Index of the offset that is added to every other. */
+export const externalOffset = 54;
+/** How many setting errors (G54.4 P) are behind it. */
+const settingErrors = 7;
+/** Of the external one, G54 .. G59, G54.1 P1 .. P48 and the setting errors. */
+export const offsetIndices: readonly number[] =
+  [externalOffset, ...Array(externalOffset).keys(), ...Array.from({ length: settingErrors }, (_, n) => externalOffset + 1 + n)];
 
 /** Name of a work offset by its index. */
-export const offsetName = (index: number) => (index < 6 ? `G${54 + index}` : `G54.1 P${index - 5}`);
+export const offsetName = (index: number) => (index > externalOffset ? `G54.4 P${index - externalOffset}` : index === externalOffset ? "EXT" : index < 6 ? `G${54 + index}` : `G54.1 P${index - 5}`);
 
 /** mm or degrees: value of the chosen offset with which the axis would show `wanted` instead of `shown`. */
 export function offsetFor(active: number, shown: number, wanted: number): number {
@@ -17,9 +22,9 @@ export function offsetFor(active: number, shown: number, wanted: number): number
   return Math.round((active + shown - wanted) * 1e6) / 1e6;
 }
 
-const turning = /^G(68(\.[123])?|51(\.1)?|24|16)$/;
+const turning = /^G(68(\.[123])?|51(\.1)?|24|16|54\.4 P\d)$/;
 
-/** Active codes that turn, mirror or scale the coordinates: with them a position says nothing about the offset. */
+/** Active codes that turn, mirror or scale the coordinates, or turn the workpiece: with them a position says nothing about the offset. */
 export const hindrances = (modal: readonly string[]) => modal.filter((code) => turning.test(code));
 
 type Position = Pick<Channel, "letters" | "machine" | "workpiece" | "work_offset" | "tool_length" | "modal">;

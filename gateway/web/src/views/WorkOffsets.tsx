@@ -8,7 +8,7 @@ import { fixed, refusal, typedNumber } from "../format";
 import type { Channel } from "../state/model";
 import { channel, channels, machine, tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
-import { axisLetters, hindrances, isTakenOver, type OffsetChange, offsetChange, offsetCount, offsetFor, offsetName } from "../state/work_zero";
+import { axisLetters, externalOffset, hindrances, isTakenOver, type OffsetChange, offsetChange, offsetFor, offsetIndices, offsetName } from "../state/work_zero";
 import { text } from "../text/texts";
 import { Cell } from "./Cell";
 import { Guard } from "./Guard";
@@ -37,7 +37,8 @@ async function store(row: WorkOffset, values: number[]): Promise<Answer> {
   const { channel: number, index } = row;
   const send = async (from: number[], to: number[], revision: number) => {
     const one = channels.peek()[String(number)];
-    const change = one?.work_offset === index ? offsetChange(one, from, to, underWay.peek()[number]) : undefined;
+    const acts = index === one?.work_offset || index === externalOffset;
+    const change = one && acts ? offsetChange(one, from, to, underWay.peek()[number]) : undefined;
     const answer = await put("/api/work-offsets", { channel: number, index, values: to, revision });
     if (answer.ok && change) underWay.value = { ...underWay.peek(), [number]: change };
     return answer;
@@ -61,6 +62,16 @@ async function store(row: WorkOffset, values: number[]): Promise<Answer> {
 /** Columns of the channel's axes. */
 const columnsOf = (one: Channel) => [...axisLetters].map((letter, column) => ({ letter, column })).filter(({ letter }) => one.letters.includes(letter));
 
+/** Those of the table: a setting error has three angles, of whatever axes the channel has to turn. */
+function tableColumns(one: Channel) {
+  const turns = [..."ABC"].some((letter) => one.letters.includes(letter));
+  return [...axisLetters].map((letter, column) => ({ letter, column })).filter(({ letter }) => one.letters.includes(letter) || (turns && "ABC".includes(letter)));
+}
+
+/** Whether a row of the table has a value for the letter. */
+const hasCell = (one: Channel, index: number, letter: string) =>
+  index > externalOffset ? "XYZABC".includes(letter) : one.letters.includes(letter);
+
 function FromPosition({ one }: { one: Channel }) {
   const wanted = useSignal<Record<string, string>>({});
   const deltas = useSignal<Record<string, string>>({});
@@ -72,7 +83,9 @@ function FromPosition({ one }: { one: Channel }) {
   const moving = one.state !== "IDLE" && one.state !== "HELD";
   // The position that the key uses must be that with the offset as it is now.
   const change = underWay.value[one.channel];
-  const usable = turned.length === 0 && !moving && !busy.value && (!change || isTakenOver(change, one));
+  // A position does not say how a workpiece stands.
+  const zero = row.index <= externalOffset;
+  const usable = zero && turned.length === 0 && !moving && !busy.value && (!change || isTakenOver(change, one));
   const save = async (values: number[], what: string) => {
     busy.value = true;
     const answer = await store(row, values);
@@ -83,7 +96,8 @@ function FromPosition({ one }: { one: Channel }) {
   const set = (letter: string, column: number) => {
     const entered = typedNumber(wanted.value[letter] || "0");
     if (entered === undefined) return tell(`${letter}: ${t.notANumber}`, true);
-    const active = rowOf(table.peek(), one.channel, one.work_offset).values[column] ?? 0;
+    const acting = chosen.peek() === externalOffset ? externalOffset : one.work_offset;
+    const active = rowOf(table.peek(), one.channel, acting).values[column] ?? 0;
     void save(row.values.map((value, i) => (i === column ? offsetFor(active, shown(letter), entered) : value)), `${name} ${letter}`);
   };
   const add = () => {
@@ -139,7 +153,7 @@ export function WorkOffsets() {
   const one = channel.value;
   if (!one) return null;
   const t = text.value;
-  const columns = columnsOf(one);
+  const columns = tableColumns(one);
   return (
     <>
       <section class="list" aria-label={t.workOffsets}>
@@ -153,7 +167,7 @@ export function WorkOffsets() {
               <tr><td /> {columns.map(({ letter }) => <th class="right" key={letter}>{letter}</th>)}</tr>
             </thead>
             <tbody>
-              {Array.from({ length: offsetCount }, (_, index) => rowOf(table.value, one.channel, index)).map((row) => (
+              {offsetIndices.map((index) => rowOf(table.value, one.channel, index)).map((row) => (
                 <tr key={row.index} class={row.index === one.work_offset ? "chosen" : ""}>
                   <td>
                     <button aria-pressed={row.index === chosen.value} onClick={() => (chosen.value = row.index)}>{offsetName(row.index)}</button>
@@ -161,11 +175,13 @@ export function WorkOffsets() {
                   </td>
                   {columns.map(({ letter, column }) => (
                     <td key={letter} class="right">
-                      <Cell
-                        value={row.values[column] ?? 0}
-                        label={`${offsetName(row.index)} ${letter}`}
-                        store={(value) => store(row, row.values.map((old, i) => (i === column ? value : old)))}
-                      />
+                      {hasCell(one, row.index, letter) && (
+                        <Cell
+                          value={row.values[column] ?? 0}
+                          label={`${offsetName(row.index)} ${letter}`}
+                          store={(value) => store(row, row.values.map((old, i) => (i === column ? value : old)))}
+                        />
+                      )}
                     </td>
                   ))}
                 </tr>

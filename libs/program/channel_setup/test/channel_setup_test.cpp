@@ -233,6 +233,13 @@ TEST(ChannelSetup, FurtherWorkOffsetsFollowTheFirstSix) {
   EXPECT_EQ(ChannelSetup(tables).work_offset(6)[language::Y], 2);
   EXPECT_EQ(tool_tables::work_offset_code(0), "G54");
   EXPECT_EQ(tool_tables::work_offset_code(53), "G54.1P48");
+  EXPECT_EQ(tool_tables::work_offset_code(54), "EXT");
+  offset.index = 54;
+  offset.values = {10, 20, 30, 0, 0, 0, 0, 0, 0};
+  tables.offsets.offsets.push_back(offset);
+  EXPECT_EQ(ChannelSetup(tables).external_offset()[language::Y], 20);
+  EXPECT_EQ(ChannelSetup(tables).workpiece_zero(6)[language::Y], 22);
+  EXPECT_EQ(ChannelSetup(tables).work_offset(6)[language::Y], 2);
 }
 
 TEST(ChannelSetup, ATiltedToolDirectionGivesTheRotaryAnglesOfTheMachine) {

@@ -113,7 +113,7 @@ TEST(Corner, WhatDoesNotFitOrHasNoMoveBehindItIsAnAlarm) {
       {"G1 X20 ,C3 ,R2 F100\nY10\nM30\n", AlarmNumber::codes_compete, ""},
       {"G1 X20 ,C-3 F100\nY10\nM30\n", AlarmNumber::value_range, ""},
       {"G1 X20 ,C3 ,C2 F100\nY10\nM30\n", AlarmNumber::letter_twice, ""},
-      {"G1 X20 ,A3 F100\nY10\nM30\n", AlarmNumber::unknown_character, ""},
+      {"G1 X20 ,B3 F100\nY10\nM30\n", AlarmNumber::unknown_character, ""},
       {"G1 X20 , F100\nM30\n", AlarmNumber::unknown_character, ""},
   };
   for (const Case& c : cases) {

@@ -69,6 +69,8 @@ void interpret(const std::uint8_t* data, std::size_t size, ProgramDialect dialec
   machine.planes[1] = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}};
   machine.last_way = {0.5, 0.5};
   machine.offsets[1] = {10, 20, 30, 0, 0, 45, 0, 0, 0};
+  machine.added = {0.5, 0, -0.5};
+  machine.setting_errors[1] = {1, 2, 3, 1, -2, 3};
   machine.axis_mask = 0b000111111;
   machine.programs["O0009"] = std::make_unique<StringSource>("G91 X1\n#100=#100+1\nM99\n");
   machine.programs["O0009.1"] = std::make_unique<StringSource>("G91 G1 F100 XL0\nL100=L100+1 G77 H8\n");

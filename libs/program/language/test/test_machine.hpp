@@ -27,6 +27,8 @@ struct TestMachine : Environment {
   std::map<int, ToolOffset> tools;               // beside lengths
   std::map<int, std::array<Vector3, 3>> planes;  // G68.1 Q
   std::map<int, AxisValues> more_offsets;        // G54.1 P
+  AxisValues added{};                            // G10 L2 P0
+  std::map<int, AxisValues> setting_errors;      // G54.4 P
   AxisValues last_way{};
   bool diameter = false;
   double factor_unit = 1;
@@ -49,7 +51,7 @@ struct TestMachine : Environment {
   TwoToolWords two_tools = TwoToolWords::refused;
   ProgramDialect dialect = ProgramDialect::iso;
   NameDialects names;
-  bool radius_offsets = false;  // of Haas programs
+  bool radius_offsets = false;               // of Haas programs
   std::map<std::uint32_t, double> external;  // parameters of the NUM dialect
   AngleMCodes angle_codes{19, -1, -1, -1};
 
@@ -57,6 +59,11 @@ struct TestMachine : Environment {
     if (index < offsets.size()) return offsets.at(index);
     const auto found = more_offsets.find(index - 5);
     return found == more_offsets.end() ? AxisValues{} : found->second;
+  }
+  AxisValues external_offset() const override { return added; }
+  AxisValues setting_error(std::uint8_t number) const override {
+    const auto found = setting_errors.find(number);
+    return found == setting_errors.end() ? AxisValues{} : found->second;
   }
   bool has_tool(std::uint32_t number) const override { return number < 90; }
   std::optional<ToolOffset> tool_offset(std::uint16_t number) const override {

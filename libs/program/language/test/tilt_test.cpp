@@ -91,6 +91,28 @@ TEST(Tilt, SpatialAnglesTurnAboutFixedAxesXThenYThenZ) {
   expect_point(result.commands[4].target, {-150, -100, -399});
 }
 
+// I90 makes X the Y of the workpiece and Y its -X. In that plane the new one is at 1 Y - 2 X + 3 Z from the
+// origin, and J90 about its X takes its Y to Z and its Z to -Y, which is +X of the workpiece.
+TEST(Tilt, AFurtherPlaneBeginsAtTheAxesOfTheOneBefore) {
+  for (const char* swing : {"", "G53.2\n"}) {
+    TestMachine machine = machine_with_tool();
+    const Interpretation result =
+        run(machine, std::string("G43.4 H1\nG68.2 X10 Y20 Z30 I90 J0 K0\n") + swing +
+                         "G68.4 X1 Y2 Z3 I0 J90 K0\nG53.6\nG0 X0 Y0 Z0\nX1\nX0 Y1\nG69\nG0 X0\n");
+    ASSERT_EQ(result.last, Step::end) << result.alarm.text.data();
+    const auto& c = result.commands;
+    // The last five: three moves, the frame of G69, a move, the end.
+    const std::size_t first = c.size() - 6;
+    const Vector3 origin{10 - 2 - 150, 20 + 1 - 100, 30 + 3 - 400};
+    expect_point(c[first].target, origin);
+    expect_point(c[first + 1].target, {origin[0], origin[1] + 1, origin[2]});
+    expect_point(c[first + 2].target, {origin[0], origin[1], origin[2] + 1});
+    expect_vector_near(tool_direction(machine, machine.machine_from_tip(c[first].target, 120)), {1, 0, 0},
+                       1e-9);
+    EXPECT_NEAR(c[first + 4].target[X], -150, 1e-9) << "G69 ends both";
+  }
+}
+
 TEST(Tilt, ThreePoints) {
   TestMachine machine = machine_with_tool();
   // X along (0, 1, 0) and Y along (0, 0, 1), so Z along (1, 0, 0).

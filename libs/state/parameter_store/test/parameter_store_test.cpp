@@ -405,7 +405,7 @@ TEST(ParameterStore, AnImportChangesValuesToolsAndOffsetsTogetherOrNothing) {
   ParameterStore store(storage, defaults(), "one");
   auto request = set({{name, 0, "Y"}}, Operation::IMPORT);
   request.tools = {{1, 10, 0, 1, 0, ""}};
-  request.offsets = {{0, 54, {1, 2, 3}}};
+  request.offsets = {{0, 62, {1, 2, 3}}};
   EXPECT_FALSE(store.apply(request, time_text).accepted);
   EXPECT_EQ(store.set().values[0].text, "X");
   EXPECT_TRUE(store.tool_table().tools.empty());
@@ -413,6 +413,18 @@ TEST(ParameterStore, AnImportChangesValuesToolsAndOffsetsTogetherOrNothing) {
   EXPECT_TRUE(store.apply(request, time_text).accepted);
   EXPECT_EQ(store.work_offsets().offsets[0].values, (std::vector<double>{1, 2, 3, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(store.tool_table().tools.size(), 1u);
+}
+
+TEST(Tables, TheExternalOffsetIsARowOfItsOwn) {
+  std::uint64_t revision = 0;
+  const auto offsets = tool_tables::read_offsets("- {channel: 1, offset: EXT, Z: 5}\n", "f.yaml", revision);
+  ASSERT_EQ(offsets.count({1, 54}), 1u);
+  EXPECT_EQ(offsets.at({1, 54}).values[2], 5);
+  EXPECT_THAT(tool_tables::write_offsets(offsets, 3), HasSubstr("channel: 1, offset: EXT,"));
+  const auto errors =
+      tool_tables::read_offsets("- {channel: 0, offset: G54.4P7, C: 0.5}\n", "f.yaml", revision);
+  EXPECT_EQ(errors.count({0, 61}), 1u);
+  EXPECT_EQ(tool_tables::work_offset_code(55), "G54.4P1");
 }
 
 TEST(Tables, ErrorsSayFileLineColumn) {
