@@ -5,6 +5,7 @@
 #include <memory>
 #include <ostream>
 
+#include "analysis/foreign_text.hpp"
 #include "analysis/json_lines.hpp"
 #include "analysis/summary.hpp"
 #include "program_execution/program_reader.hpp"
@@ -32,6 +33,7 @@ void print_alarm(const ProgramReader& reader, const TextName& name, std::ostream
   else  // without the line that the text begins with
     out << " " << static_cast<unsigned>(alarm.number) << ":"
         << reader.alarm_text().substr(reader.alarm_text().find(' ')) << "\n";
+  if (alarm.foreign != nullptr) out << "  " << foreign_text(*alarm.foreign) << "\n";
   for (std::size_t i = alarm.calls; i-- > 0;) {
     out << "  called from " << name(alarm.chain[i].program) << ":" << alarm.chain[i].line << "\n";
   }

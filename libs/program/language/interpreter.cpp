@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "language/foreign_words.hpp"
 #include "language/iso_dialect.hpp"
 #include "language/num_dialect.hpp"
 #include "text/utf8.hpp"
@@ -164,7 +165,20 @@ Alarm Interpreter::located(const Fault& fault, std::string_view line) {
 
 Interpreter::State Interpreter::fail(const Fault& fault, std::string_view line) {
   if (fault.number == value_pending) return ask_value(line);
-  return fail(located(fault, line));
+  return fail(named(fault, line));
+}
+
+// An M code is above all one that the machine does not have: its alarm keeps the number.
+Alarm Interpreter::named(const Fault& fault, std::string_view line) {
+  Fault found = fault;
+  const ForeignWord* const word =
+      dialect_->names_foreign_words() ? find_foreign_word(fault, line, found.offset) : nullptr;
+  if (word == nullptr) return located(fault, line);
+  if (fault.number != AlarmNumber::unknown_m) found.number = AlarmNumber::foreign_word;
+  found.detail = word->shown;
+  Alarm alarm = located(found, line);
+  alarm.foreign = word;
+  return alarm;
 }
 
 // The line has had no effect yet but for what it has stored: that is taken back, and the line is read again.

@@ -194,6 +194,7 @@ class Interpreter {
   State fail(const Alarm& alarm);
   State report_line_status(LineReader::Status status, Step& step);
   Alarm located(const Fault& fault, std::string_view line);
+  Alarm named(const Fault& fault, std::string_view line);
 
   State run_statement(std::string_view line);
   State call_cycle(std::string_view line);

@@ -113,6 +113,12 @@ TEST(Summary, AlarmNamesFileLineColumnAndNumber) {
                                                                  "  called from part.nc:1\n"));
 }
 
+TEST(Summary, AnAlarmAtAWordOfAnotherControlHasItsRowBesides) {
+  EXPECT_THAT(summary_of("G0 X1\nTRAFOOF\n"),
+              HasSubstr("part.nc:2:1: 1540: word of another control: TRAFOOF, Siemens: write G49\n"
+                        "  Siemens: transformation off. Here: G49.\n"));
+}
+
 TEST(Summary, AMotionBeyondTheTravelEndsTheCheckWithItsLineAndAxis) {
   channel_setup::ChannelSetup machine(
       tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table"));

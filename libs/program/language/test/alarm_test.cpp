@@ -126,6 +126,7 @@ std::vector<Wrong> wrong_programs() {
       {subprogram_without_end, "M98 P5\nM30\nO5\nG0 X1\n", 5, 1, ""},
       {subprogram_without_end, "M98 P5\nM30\nO5\nG0 X1\nO6\nM99", 5, 1, ""},
       {unknown_instruction, "G0 X1\nTANGON P0", 2, 1, ": TANGON"},
+      {foreign_word, "G0 X1\nTRAORI", 2, 1, ": TRAORI, Siemens: write G43.4 H_"},
       {unknown_instruction, "G0 XY1", 1, 4, ": XY"},
       {statement_not_first, "G0 X1 #5=1", 1, 7, ": #5"},
       {statement_not_first, "X#1 ENDW", 1, 5, ": ENDW"},
