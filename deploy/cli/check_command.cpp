@@ -79,6 +79,7 @@ int run_check(const CheckOptions& options) {
   if (options.machine.empty()) {
     analysis::DefaultMachine machine(rows);
     machine.resolve = resolve;
+    check_options.lengths_known = rows.has_value();
     good = analysis::check_program(text, machine, {}, check_options, name, std::cout);
   } else {
     const auto tables = options.active ? *options.active : tool_tables::load_machine_tables(directory);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/check_program.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <memory>
 #include <ostream>
 
 #include "analysis/foreign_text.hpp"
 #include "analysis/json_lines.hpp"
+#include "analysis/program_survey.hpp"
 #include "analysis/summary.hpp"
 #include "program_execution/program_reader.hpp"
 
@@ -18,11 +21,24 @@ using program_execution::ProgramReader;
 
 constexpr language::SkipLevels every_level = 0x1ff;
 
-program_execution::ReadingOptions checking(const CheckOptions& options) {
+program_execution::ReadingOptions checking(const CheckOptions& options, ProgramSurvey& survey) {
   program_execution::ReadingOptions result;
   result.block_skip = options.skip_blocks ? every_level : language::SkipLevels{0};
   result.guard = options.guard;
+  if (!options.json_lines) result.watch = &survey;
   return result;
+}
+
+std::string lines_of(const Warnings& warnings, const TextName& name) {
+  std::string lines;
+  for (const Warning& warning : warnings.sorted()) {
+    const auto& place = warning.place;
+    const std::string text = place.program == 0 ? "" : fmt::format("{} ", name(place.program));
+    const std::string more = warning.blocks > 1 ? fmt::format(" and {} more", warning.blocks - 1) : "";
+    lines +=
+        fmt::format("warning  {}line {}:{}{}: {}\n", text, place.line, place.column, more, text_of(warning));
+  }
+  return lines;
 }
 
 void print_alarm(const ProgramReader& reader, const TextName& name, std::ostream& out) {
@@ -65,9 +81,9 @@ void print_ending(const ProgramReader& reader, Ending ending, const TextName& na
   }
 }
 
-bool check(ProgramReader& reader, const language::Environment& environment, language::TextSource& text,
-           const language::AxisValues& start, const CheckOptions& options, const TextName& name,
-           std::ostream& out) {
+bool check(ProgramReader& reader, const language::Environment& environment, ProgramSurvey& survey,
+           language::TextSource& text, const language::AxisValues& start, const CheckOptions& options,
+           const TextName& name, std::ostream& out) {
   const auto lines = std::make_unique<JsonLines>(out, environment.axes());
   MotionTracker tracker(environment, reader.interpreter(), start);
   Summary summary(environment.axes());
@@ -82,6 +98,7 @@ bool check(ProgramReader& reader, const language::Environment& environment, lang
       turned.modal.feed = move.modal.feed, turned.modal.feed_mode = move.modal.feed_mode;
     }
     const auto motion = tracker.follow(turns ? turned : command);
+    if (!options.json_lines) survey.see(command, reader.from(), motion);
     if (!motion) return;
     if (options.json_lines)
       lines->motion(*motion);
@@ -91,7 +108,8 @@ bool check(ProgramReader& reader, const language::Environment& environment, lang
   const auto ending = reader.read(text, start);
   const bool good = ending == Ending::end || ending == Ending::repeats;
   if (!options.json_lines) {
-    summary.print(out, reader.interpreter().blocks());
+    survey.end(ending == Ending::end, reader.interpreter().executor().program_position());
+    summary.print(out, reader.interpreter().blocks(), lines_of(survey.warnings(), name));
     print_ending(reader, ending, name, out);
   } else if (good) {
     lines->end(tracker.machine());
@@ -106,15 +124,17 @@ bool check(ProgramReader& reader, const language::Environment& environment, lang
 bool check_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
                    const language::AxisValues& start, const CheckOptions& options, const TextName& name,
                    std::ostream& out) {
-  const auto reader = std::make_unique<ProgramReader>(machine, checking(options));
-  return check(*reader, machine, text, start, options, name, out);
+  ProgramSurvey survey(machine, true);
+  const auto reader = std::make_unique<ProgramReader>(machine, checking(options, survey));
+  return check(*reader, machine, survey, text, start, options, name, out);
 }
 
 bool check_program(language::TextSource& text, language::Environment& environment,
                    const language::AxisValues& start, const CheckOptions& options, const TextName& name,
                    std::ostream& out) {
-  const auto reader = std::make_unique<ProgramReader>(environment, checking(options));
-  return check(*reader, environment, text, start, options, name, out);
+  ProgramSurvey survey(environment, options.lengths_known);
+  const auto reader = std::make_unique<ProgramReader>(environment, checking(options, survey));
+  return check(*reader, environment, survey, text, start, options, name, out);
 }
 
 }  // namespace trunnion::analysis

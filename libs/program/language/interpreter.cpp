@@ -233,6 +233,9 @@ Interpreter::State Interpreter::execute_block(std::string_view line) {
     control_.set_program_number(block_.program_number);
   }
   if (block_.statement != Statement::none || !block_.empty()) ++blocks_;
+  if (block_watch_ != nullptr)
+    block_watch_->begin(
+        {block_, line, level.program, line_, executor_.modal(), executor_.program_position()});
   if (block_.has('N')) control_.set_sequence_number(block_.value('N'));
   if (block_.statement != Statement::none) {
     level.started = true;
