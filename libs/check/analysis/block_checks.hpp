@@ -25,7 +25,11 @@ class BlockChecks {
 
   void see(const language::SeenBlock& seen);
 
-  /// Of the block that was seen last: where its first axis word is, or its line.
+  /// The block that was seen last has made `command`.
+  bool has(const language::Command& command) const {
+    return command.program == program_ && command.line == number_;
+  }
+  /// Of that block: where its first axis word is, or its line.
   WarningPlace place() const { return place_in(program_, number_, line_, offset_); }
   /// It calls a macro or a cycle of the user: its letters are arguments.
   bool calls() const { return calls_; }

@@ -20,7 +20,7 @@ constexpr double noticed_way = 0.1;    // mm of a rapid, along Z and beside it
 constexpr double noticed_turn = 1e-6;  // mm, degrees
 constexpr std::uint16_t rotary_axes = 1u << language::A | 1u << language::B | 1u << language::C;
 // Codes of the block in tenths.
-constexpr std::uint16_t machine_coordinates = 530, swing = 531, swing_about_tip = 532;
+constexpr std::uint16_t swing = 531, swing_about_tip = 532;
 
 bool at_feed(CommandKind kind) {
   return kind == CommandKind::line || kind == CommandKind::arc || kind == CommandKind::tap ||
@@ -53,8 +53,8 @@ void MotionChecks::see(const Command& command, const AxisValues& from, const std
   if (command.kind == CommandKind::end) ended_ = command.number != 0;
   probes_ = probes_ || command.kind == CommandKind::skip || command.kind == CommandKind::cycle;
   if (!motion || command.kind == CommandKind::home) return;
-  const std::uint16_t code = blocks_.one_block();
-  if (code == 0) check_stated();
+  const std::uint16_t code = blocks_.has(command) ? blocks_.one_block() : std::uint16_t{0};
+  if (code == 0) check_stated(command);
   if (code == swing || code == swing_about_tip) return;
   const double down = from[language::Z] - command.target[language::Z];
   if (command.kind == CommandKind::rapid && code == 0) check_rapid(command, from, *motion);
@@ -66,7 +66,12 @@ void MotionChecks::see(const Command& command, const AxisValues& from, const std
   note_cut(command, from, *motion);
 }
 
-void MotionChecks::check_stated() {
+// With compensation the moves come behind blocks that are read ahead.
+WarningPlace MotionChecks::place(const Command& command) const {
+  return blocks_.has(command) ? blocks_.place() : WarningPlace{command.program, command.line, 1};
+}
+
+void MotionChecks::check_stated(const Command& command) {
   if (head_checked_) return;
   head_checked_ = true;
   const Stated& stated = blocks_.stated();
@@ -78,13 +83,13 @@ void MotionChecks::check_stated() {
   add(stated.distance, "G90 or G91");
   add(stated.work_offset || num_, "G54 to G59");
   if (missing.empty()) return;
-  if (auto* const warning = warnings_.add(WarningKind::head, blocks_.place())) warning->detail = missing;
+  if (auto* const warning = warnings_.add(WarningKind::head, place(command))) warning->detail = missing;
 }
 
 void MotionChecks::check_feed(const Command& command) {
   const bool takes_default = cuts(command.kind) && command.modal.feed_mode == language::FeedMode::per_minute;
   if (!takes_default || blocks_.stated().feed || !environment_.feeds_without_word()) return;
-  if (auto* const warning = warnings_.add(WarningKind::feed_missing, blocks_.place()))
+  if (auto* const warning = warnings_.add(WarningKind::feed_missing, place(command)))
     warning->detail = fmt::format("it has {:g} mm/min (040030)", environment_.default_feed());
 }
 
@@ -92,7 +97,7 @@ void MotionChecks::check_spindle(const Command& command) {
   if (first_feed_seen_ || !cuts(command.kind)) return;
   first_feed_seen_ = true;
   const bool turns = command.modal.spindle_direction != language::SpindleDirection::stopped;
-  if (!turns && !blocks_.spindle_by_logic()) without_spindle_ = blocks_.place();
+  if (!turns && !blocks_.spindle_by_logic()) without_spindle_ = place(command);
 }
 
 // In ZX it is a lathe, whose tools have their place in the table and no length.
@@ -103,7 +108,7 @@ void MotionChecks::check_length(const Command& command, double down) {
   if (!expected || !(down > noticed_turn)) return;
   const double length = environment_.tool_length(tool_).value_or(0);
   if (lengths_known_ && length == 0) return;
-  auto* const warning = warnings_.add(WarningKind::length_missing, blocks_.place(), tool_);
+  auto* const warning = warnings_.add(WarningKind::length_missing, place(command), tool_);
   if (warning == nullptr) return;
   warning->detail =
       lengths_known_ ? fmt::format("T{} is {:g} mm long", tool_, length) : fmt::format("T{}", tool_);
@@ -114,7 +119,7 @@ void MotionChecks::check_tip(const Command& command, const AxisValues& from) {
   if (!several_rotary_ || !free || !cuts(command.kind)) return;
   if (farthest(from, command.target, {language::A, language::B, language::C}) <= noticed_turn) return;
   if (farthest(from, command.target, {language::X, language::Y, language::Z}) <= noticed_turn) return;
-  warnings_.add(WarningKind::tip_control, blocks_.place());
+  warnings_.add(WarningKind::tip_control, place(command));
 }
 
 void MotionChecks::check_rapid(const Command& command, const AxisValues& from, const Motion& motion) {
@@ -125,7 +130,7 @@ void MotionChecks::check_rapid(const Command& command, const AxisValues& from, c
   if (!known || !(down > noticed_way) || !(beside > noticed_way)) return;
   const double end = motion.wcs[language::Z];
   if (!(end < cut_level_ - noticed_turn)) return;
-  if (auto* const warning = warnings_.add(WarningKind::rapid_down, blocks_.place()))
+  if (auto* const warning = warnings_.add(WarningKind::rapid_down, place(command)))
     warning->detail = fmt::format("to Z{:.3f}, at Z{:.3f} it has cut", end, cut_level_);
 }
 

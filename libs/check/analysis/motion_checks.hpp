@@ -24,7 +24,8 @@ class MotionChecks {
   void end(bool whole);
 
  private:
-  void check_stated();
+  WarningPlace place(const language::Command& command) const;
+  void check_stated(const language::Command& command);
   void check_feed(const language::Command& command);
   void check_spindle(const language::Command& command);
   void check_length(const language::Command& command, double down);
