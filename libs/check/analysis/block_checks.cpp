@@ -31,9 +31,9 @@ WarningPlace place_of(const SeenBlock& seen, std::size_t offset) {
 
 }  // namespace
 
-BlockChecks::BlockChecks(const language::Environment& environment, Warnings& warnings)
-    : environment_(environment),
-      warnings_(warnings),
+BlockChecks::BlockChecks(const language::Environment& environment, bool functions_known, Warnings& warnings)
+    : warnings_(warnings),
+      functions_known_(functions_known),
       iso_(environment.program_dialect() != language::ProgramDialect::num) {
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i)
     cycle_m_codes_[i] = iso_ ? environment.cycle_m_code(i) : std::uint16_t{0};
@@ -131,7 +131,7 @@ void BlockChecks::check_m(const SeenBlock& seen) {
     if (!(value >= 0 && value <= language::highest_m)) continue;
     const auto number = static_cast<std::uint32_t>(value);
     spindle_by_logic_ = spindle_by_logic_ || number == 13 || number == 14;
-    if (environment_.m_functions() != nullptr) continue;
+    if (functions_known_) continue;
     const auto* const word = language::foreign_m(number);
     if (word == nullptr) continue;
     auto* const warning = warnings_.add(WarningKind::foreign_m, place_of(seen, block.m[i].offset), number);

@@ -20,8 +20,9 @@ struct Stated {
 
 class BlockChecks {
  public:
-  /// `environment` and `warnings` must outlive the checks.
-  BlockChecks(const language::Environment& environment, Warnings& warnings);
+  /// `functions_known`: the M codes are checked against those of the machine. `environment` and `warnings`
+  /// must outlive the checks.
+  BlockChecks(const language::Environment& environment, bool functions_known, Warnings& warnings);
 
   void see(const language::SeenBlock& seen);
 
@@ -55,8 +56,8 @@ class BlockChecks {
   void check_m(const language::SeenBlock& seen);
   void check_condition(const language::SeenBlock& seen);
 
-  const language::Environment& environment_;
   Warnings& warnings_;
+  bool functions_known_ = false;
   language::CycleMCodes cycle_m_codes_{};
   bool iso_ = true;
   Stated stated_;

@@ -2,6 +2,7 @@
 // Interprets a program without a machine and says what it would do.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <iosfwd>
 #include <string>
@@ -17,6 +18,9 @@ struct CheckOptions {
   bool skip_blocks = false;                       ///< leave out blocks that begin with / or /n
   program_execution::MoveGuard* guard = nullptr;  ///< looks at the motions as in the channel
   bool lengths_known = false;                     ///< without a machine: the tools are listed
+  bool json = false;                              ///< a summary is one JSON document
+  /// Of a summary: the line of the main program that is being read, now and then and at the end.
+  std::function<void(std::uint64_t line, std::uint64_t lines)> progress;
 };
 
 /// Names the text of Command::program for a reader: a path.

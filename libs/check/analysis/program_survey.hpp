@@ -14,9 +14,10 @@ namespace trunnion::analysis {
 
 class ProgramSurvey final : public language::BlockWatch {
  public:
-  /// `environment` must outlive the survey; `lengths_known`: its tool table is that of the machine.
-  ProgramSurvey(const language::Environment& environment, bool lengths_known)
-      : blocks_(environment, warnings_),
+  /// `environment` must outlive the survey; `lengths_known`: its tool table is that of the machine;
+  /// `functions_known`: so are its M codes.
+  ProgramSurvey(const language::Environment& environment, bool lengths_known, bool functions_known)
+      : blocks_(environment, functions_known, warnings_),
         arcs_(environment, warnings_),
         motions_(environment, lengths_known, blocks_, warnings_) {}
   ProgramSurvey(const ProgramSurvey&) = delete;

@@ -33,7 +33,7 @@ void read_conditions(std::string_view text) {
 
 void survey_program(std::string_view text) {
   DefaultMachine machine({});
-  ProgramSurvey survey(machine, false);
+  ProgramSurvey survey(machine, false, false);
   language::StringSource source(text);
   language::Interpreter interpreter(machine);
   interpreter.watch_blocks(&survey);
