@@ -77,7 +77,7 @@ std::string work_offset_name(std::size_t index) {
 ProgramFigures::ProgramFigures(const language::Environment& environment,
                                const channel_setup::ChannelSetup* machine,
                                const language::MFunctions* functions)
-    : environment_(environment), machine_(machine), functions_(functions) {
+    : machine_(machine), functions_(functions) {
   if (environment.program_dialect() == language::ProgramDialect::num) return;
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment.cycle_m_code(i);
 }
@@ -88,11 +88,10 @@ void ProgramFigures::begin(const SeenBlock& seen) {
   if (seen.block.statement == language::Statement::call_cycle)
     add_named(calls_, fmt::format("CYCLE{}", seen.block.program_number), seen, seen.block.at);
   if (seen.block.g_count == 0 && seen.block.m_count == 0) return;
-  note_calls(seen);
-  note_codes(seen);
+  if (!note_calls(seen)) note_codes(seen);
 }
 
-void ProgramFigures::note_calls(const SeenBlock& seen) {
+bool ProgramFigures::note_calls(const SeenBlock& seen) {
   const auto& block = seen.block;
   for (std::size_t i = 0; i < block.m_count; ++i) {
     if (block.m[i].value != 98) continue;
@@ -101,13 +100,14 @@ void ProgramFigures::note_calls(const SeenBlock& seen) {
     add_named(calls_, std::string(language::ProgramName(number).view()), seen, block.m[i].offset);
   }
   language::Call call;
-  if (!language::find_call(block, cycle_m_codes_, call)) return;
+  if (!language::find_call(block, cycle_m_codes_, call)) return false;
   const bool complete = !language::read_call(block, call);
-  if (!complete || call.kind == language::CallKind::modal_cancel) return;
+  if (!complete || call.kind == language::CallKind::modal_cancel) return true;
   const bool cycle = call.kind == language::CallKind::cycle;
   const std::string name =
       cycle ? fmt::format("G{}", call.number) : std::string(language::ProgramName(call.number).view());
   add_named(calls_, name, seen, call.offset);
+  return true;
 }
 
 void ProgramFigures::note_codes(const SeenBlock& seen) {

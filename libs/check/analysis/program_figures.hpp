@@ -60,7 +60,7 @@ struct OffsetFigures {
 class ProgramFigures {
  public:
   /// `machine` is null when none is named; then rapids have no time and axes no travel. `functions`: the M
-  /// codes of its logic, or null. All must outlive the figures.
+  /// codes of its logic, or null. Both must outlive the figures.
   ProgramFigures(const language::Environment& environment, const channel_setup::ChannelSetup* machine,
                  const language::MFunctions* functions);
 
@@ -89,13 +89,13 @@ class ProgramFigures {
 
  private:
   ToolFigures& tool(const language::Command& command);
-  void note_calls(const language::SeenBlock& seen);
+  /// Whether the letters of the block are arguments.
+  bool note_calls(const language::SeenBlock& seen);
   void note_codes(const language::SeenBlock& seen);
   void note_rapid(const Motion& motion, ToolFigures& tool);
   void note_feed(const language::Command& command, const Motion& motion, ToolFigures& tool);
   void note_tip(const language::Command& command, const language::AxisValues& from, const Motion& motion);
 
-  const language::Environment& environment_;
   const channel_setup::ChannelSetup* machine_;
   const language::MFunctions* functions_;
   language::CycleMCodes cycle_m_codes_{};
