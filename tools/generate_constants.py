@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the C++ constants of parameters, alarms and services from catalogue.yaml, alarms.yaml and services.yaml, so that a
 misspelt name does not compile: trunnion::parameter::NAME, trunnion::alarm::NAME, trunnion::machine::service::NAME. Alarms of the
-NC language are also trunnion::language::AlarmNumber::NAME: the interpreter is built without what a machine is.
+NC language are also trunnion::language::AlarmNumber::NAME: the interpreter is built without what a machine is. And its table of
+words of other controls, from foreign_words.yaml.
 """
 import argparse, json, os, re
 import yaml
 from alarm_table import AlarmTable
+from foreign_word_table import foreign_words
 
 PARAMETER_TYPES = {"integer": "IntegerParameter", "real": "RealParameter", "text": "TextParameter"}
 SERVICE_KEYS = {"name", "required", "per_channel", "cyclic", "not_verified", "stage"}
@@ -70,6 +72,14 @@ def alarm_numbers(table):
     return header(("<cstdint>", "<string_view>"), ALARMS, "language", lines)
 
 
+def foreign_word_table(path):
+    lines = ["inline constexpr ForeignWord foreign_word_table[] = {"]
+    for row in foreign_words(path):
+        cells = (row["word"], row["with"], row["control"], row["meaning"], row["shown"], row["here"])
+        lines.append(f"    {{{', '.join(literal(cell) for cell in cells)}}},")
+    return header(("\"language/foreign_words.hpp\"",), "The words of libs/program/language/foreign_words.yaml.", "language", lines + ["};"])
+
+
 def literal(text): return json.dumps(text, ensure_ascii=False)
 
 
@@ -98,12 +108,13 @@ def header(includes, about, namespace, lines):
 
 def main():
     p = argparse.ArgumentParser(description=__doc__)
-    p.add_argument("catalogue"), p.add_argument("alarms"), p.add_argument("services")
+    p.add_argument("catalogue"), p.add_argument("alarms"), p.add_argument("services"), p.add_argument("foreign_words")
     p.add_argument("--out", required=True, help="include directory of the headers")
     args = p.parse_args()
     table = AlarmTable(args.alarms)
     for name, text in (("machine/parameter_constants.hpp", parameters(args.catalogue)), ("machine/alarm_constants.hpp", alarms(table)),
-                       ("machine/service_constants.hpp", services(args.services)), ("language/alarm_numbers.hpp", alarm_numbers(table))):
+                       ("machine/service_constants.hpp", services(args.services)), ("language/alarm_numbers.hpp", alarm_numbers(table)),
+                       ("language/foreign_word_table.hpp", foreign_word_table(args.foreign_words))):
         path = os.path.join(args.out, name)
         os.makedirs(os.path.dirname(path), exist_ok=True)
         if os.path.exists(path):

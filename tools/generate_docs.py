@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the reference tables of docs/ from the files that define their content: parameters, alarms, G and M codes, PLC registers,
-the tables of IEC 61131-3; and what the page knows of alarms and codes.
+"""Writes the reference tables of docs/ from the files that define their content: parameters, alarms, G and M codes, words of other
+controls, PLC registers, the tables of IEC 61131-3; and what the page knows of alarms and codes.
 
 With --check nothing is written: differences are printed and the exit status is 1.
 """
 import argparse, difflib, json, os, re, sys, textwrap
 import yaml
 from alarm_table import AlarmTable
+from foreign_word_table import foreign_words
 
 WIDTH = 120  # of a line of prose
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -174,6 +175,22 @@ def codes():
     return out + table(("code", "acts", "group", "handled as", "meaning"), [(f"M{n}", when, "" if group == "none" else group, action, text) for n, when, action, group, text in m])
 
 
+def other_controls():
+    path = "libs/program/language/foreign_words.yaml"
+    out = ["# Words of other controls", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
+           "Programs for other controls have words that this one does not have, or has with another meaning. A program that has one is refused with "
+           "alarm 1540, an M code that the machine does not have with alarm 1104; the text ends with the control and with what to write here, and "
+           "`trunnion check` prints the row of this table besides. An M code of the table that the logic of the machine carries out means what the "
+           "logic does; without `--machine` the check warns of it. Channels with parameter 04c959 = 1 read NUM programs and name their own words "
+           "([num.md](num.md)).", "",
+           "`#` is a whole number, `?` a digit, `@` a letter, and `^` comes before a word that begins a block.", ""]
+    def shown(row):
+        more = row["with"]
+        return f"`{row['word']}`" + (f" without `{more[1:]}`" if more.startswith("-") else f" with `{more}`" if more else "")
+    return out + table(("word", "control", "meaning there", "here"),
+                       [(shown(row), row["control"], row["meaning"], row["here"]) for row in foreign_words(os.path.join(ROOT, path))])
+
+
 def macros():
     variables, functions, calls = (f"libs/program/language/{f}.hpp" for f in ("variables", "arithmetic", "macro_call"))
     v = [(int(a), int(b), w == "true", joined(text)) for a, b, w, text in
@@ -323,6 +340,7 @@ def standard():
 
 OUTPUTS = {
     "docs/parameters.md": lambda: paragraphs(parameters()), "docs/alarms.md": lambda: paragraphs(alarms()), "docs/codes.md": lambda: paragraphs(codes()),
+    "docs/other-controls.md": lambda: paragraphs(other_controls()),
     "docs/macros.md": lambda: paragraphs(macros()), "docs/plc-registers.md": lambda: paragraphs(registers()),
     "docs/plc-standard.md": lambda: paragraphs(standard()),
     "gateway/web/src/alarm_catalogue.ts": alarm_catalogue, "gateway/web/src/program/code_catalogue.ts": code_catalogue,

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // check: what a program would do, without a cluster
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -16,6 +20,7 @@
 #include "analysis/default_machine.hpp"
 #include "analysis/json_lines.hpp"
 #include "analysis/program_folders.hpp"
+#include "analysis/program_summary.hpp"
 #include "canonical/program_dialect.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "cluster/cluster_files.hpp"
@@ -32,6 +37,7 @@ struct CheckOptions {
   std::string dialect;  ///< empty: that of the machine, without one ISO
   bool skip_blocks = false;
   bool json_lines = false;
+  bool summary = false, json = false;
   std::optional<tool_tables::MachineTables> active;  ///< of a running machine, in place of its folder's
   std::function<void()> fetch;  ///< makes the programs that may be called files beside the program
 };
@@ -58,6 +64,26 @@ idl::parameters::ToolTable tool_table(const analysis::ToolRows& rows) {
   return table;
 }
 
+/// A line on the terminal while a long program is read.
+class ProgressLine {
+ public:
+  void show(std::uint64_t line, std::uint64_t lines) {
+    constexpr std::chrono::milliseconds period(200);
+    const auto now = std::chrono::steady_clock::now();
+    const bool last = line == lines && drawn_;
+    if (!last && now - newest_ < period) return;
+    newest_ = now;
+    drawn_ = !last;
+    std::fprintf(stderr, "\rline %llu of %llu %s", static_cast<unsigned long long>(line),
+                 static_cast<unsigned long long>(lines), last ? "\n" : "");
+    std::fflush(stderr);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point newest_ = std::chrono::steady_clock::now();
+  bool drawn_ = false;
+};
+
 int run_check(const CheckOptions& options) {
   analysis::FileSource text(options.program);
   const auto rows = tool_rows(options.tools);
@@ -80,22 +106,30 @@ int run_check(const CheckOptions& options) {
   };
   analysis::CheckOptions check_options{options.json_lines, options.skip_blocks};
   const auto dialect = canonical::dialect_named(options.dialect);
+  check_options.json = options.json;
+  ProgressLine progress;
+  if (options.summary && isatty(STDERR_FILENO) != 0)
+    check_options.progress = [&](std::uint64_t line, std::uint64_t lines) { progress.show(line, lines); };
+  const auto check = [&](auto& machine, const language::AxisValues& start) {
+    return options.summary ? analysis::summarize_program(text, machine, start, check_options, name, std::cout)
+                           : analysis::check_program(text, machine, start, check_options, name, std::cout);
+  };
   bool good = false;
   if (options.machine.empty()) {
     analysis::DefaultMachine machine(rows);
     machine.resolve = resolve;
     if (dialect) machine.dialect = *dialect;
-    good = analysis::check_program(text, machine, {}, check_options, name, std::cout);
+    check_options.lengths_known = rows.has_value();
+    good = check(machine, {});
   } else {
     const auto tables = options.active ? *options.active : tool_tables::load_machine_tables(directory);
-    channel_setup::ChannelSetup machine(tables);
+    analysis::SurveyedMachine machine(tables);
     machine.resolve = resolve;
     if (dialect) machine.set_program_dialect(*dialect);
     if (rows) machine.set_tools(tool_table(*rows));
     const auto guard = collision_guard::load_guard(machine, directory, tables.parameters, 0);
     check_options.guard = guard.get();
-    good =
-        analysis::check_program(text, machine, machine.reference_position(), check_options, name, std::cout);
+    good = check(machine, machine.reference_position());
     print_warnings(guard.get(), options.program);
   }
   return good ? 0 : 1;
@@ -128,7 +162,10 @@ void add_check_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<CheckOptions>();
   auto* command =
       add_command(app, common, "check", "Interpret a program without a cluster and report what it does",
-                  [options] { return run_check_as_asked(*options); });
+                  [&common, options] {
+                    options->json = common.json;
+                    return run_check_as_asked(*options);
+                  });
   command->add_option("program", options->program, "The program's file")->required();
   command->add_option(
       "--machine", options->machine,
@@ -144,7 +181,13 @@ void add_check_command(CLI::App& app, Common& common) {
                    "neither is named")
       ->check(CLI::IsMember(names));
   command->add_flag("--skip-blocks", options->skip_blocks, "Leave out blocks that begin with /");
-  command->add_flag("--jsonl", options->json_lines, "One JSON object per motion instead of a summary");
+  auto* const motions =
+      command->add_flag("--jsonl", options->json_lines, "One JSON object per motion instead of a summary");
+  command
+      ->add_flag("--summary", options->summary,
+                 "Tools, times, envelope, reserve of travel, calls and all M codes that the machine does not "
+                 "have; with --json as one document")
+      ->excludes(motions);
 }
 
 }  // namespace trunnion::cli

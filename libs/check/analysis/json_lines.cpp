@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <ostream>
 
+#include "analysis/foreign_text.hpp"
+
 namespace trunnion::analysis {
 namespace {
 
@@ -131,6 +133,7 @@ void JsonLines::error(const language::Alarm& alarm) {
   out_ << "{\"error\":{\"line\":" << alarm.line << ",\"column\":" << alarm.column
        << ",\"number\":" << static_cast<unsigned>(alarm.number)
        << ",\"text\":" << json_string(alarm.text.data());
+  if (alarm.foreign != nullptr) out_ << ",\"remedy\":" << json_string(foreign_text(*alarm.foreign));
   if (alarm.program != 0) out_ << ",\"program\":" << name(alarm.program);
   if (alarm.calls != 0) {
     out_ << ",\"called_from\":[";

@@ -29,7 +29,7 @@ class JsonLines {
   void motion(const Motion& motion);
   void end(const language::AxisValues& mcs);
   /// With "program" when it is in another text, and "called_from", innermost first, when it is in a
-  /// subprogram.
+  /// subprogram; with "remedy" when its word is one of another control.
   void error(const language::Alarm& alarm);
   void flush();
 

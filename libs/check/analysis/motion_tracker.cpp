@@ -142,4 +142,14 @@ std::optional<Motion> MotionTracker::follow(const Command& command) {
   return motion;
 }
 
+std::optional<Motion> MotionTracker::follow(const Command& command, const Command& move) {
+  const bool turns = command.modal.spindle_mode == language::SpindleMode::surface &&
+                     command.modal.feed_mode == language::FeedMode::per_revolution &&
+                     move.modal.feed_mode == language::FeedMode::per_minute;
+  if (!turns) return follow(command);
+  Command turned = command;
+  turned.modal.feed = move.modal.feed, turned.modal.feed_mode = move.modal.feed_mode;
+  return follow(turned);
+}
+
 }  // namespace trunnion::analysis

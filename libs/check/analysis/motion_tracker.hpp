@@ -37,6 +37,9 @@ class MotionTracker {
 
   /// The motion a command makes, if it makes one; to be asked right after the interpreter gave it.
   std::optional<Motion> follow(const language::Command& command);
+  /// The same of a command that motion has got as `move`: with G96 the feed per revolution is that of the
+  /// move.
+  std::optional<Motion> follow(const language::Command& command, const language::Command& move);
   const language::AxisValues& machine() const { return machine_; }
 
  private:

@@ -98,7 +98,7 @@ void Summary::extend_over_arc(const Motion& motion) {
   }
 }
 
-void Summary::print(std::ostream& out, std::uint64_t blocks) const {
+void Summary::print(std::ostream& out, std::uint64_t blocks, std::string_view warnings) const {
   out << fmt::format("blocks   {}\n", blocks);
   out << fmt::format("moves    {} rapid, {} lines, {} arcs\n", rapids_, lines_, arcs_);
   out << fmt::format("path     {:.3f} mm rapid, {:.3f} mm at feed\n", rapid_length_, feed_length_);
@@ -112,7 +112,7 @@ void Summary::print(std::ostream& out, std::uint64_t blocks) const {
     out << "warning  line " << plane_line_ << ": P" << plane_solution_
         << " of a tilted plane chooses the solution of the rotary axes; programs for Fanuc state the kind of "
            "the angles with P of G68.2: parameter 04c989 = 1\n";
-  out << "tools   ";
+  out << warnings << "tools   ";
   for (const std::uint32_t tool : tools_) out << " T" << tool;
   out << (tools_.empty() ? " none\n" : "\n");
   for (std::size_t axis = 0; axis < language::axis_count; ++axis) {

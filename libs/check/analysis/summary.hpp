@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iosfwd>
 #include <set>
+#include <string_view>
 
 #include "analysis/motion_tracker.hpp"
 
@@ -17,8 +18,8 @@ class Summary {
 
   void add(const language::Command& command);
   void add(const Motion& motion);
-  /// Readable lines; `blocks` as language::Interpreter::blocks().
-  void print(std::ostream& out, std::uint64_t blocks) const;
+  /// Readable lines; `blocks` as language::Interpreter::blocks(), `warnings` further lines.
+  void print(std::ostream& out, std::uint64_t blocks, std::string_view warnings = {}) const;
 
   /// Extents of the control point in machine coordinates; of a motion whose axes turn under tool tip control,
   /// those of its ends.

@@ -145,6 +145,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   dry_run_feed_ = p.get(parameter::dry_run_feed, channel_);
   handwheel_share_ = p.get(parameter::handwheel_share, channel_);
   jog_renewal_seconds_ = p.get(parameter::jog_renewal_time, channel_);
+  tool_change_seconds_ = p.get(parameter::tool_change_time, channel_);
   plane_angles_by_p_ = p.integer(parameter::plane_angles, channel_) == 1;
   zone_forbids_outside_ = p.integer(parameter::zone_forbidden, channel_) == 1;
   program_dialect_ = static_cast<language::ProgramDialect>(p.integer(parameter::program_dialect, channel_));

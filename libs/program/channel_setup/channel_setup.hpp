@@ -163,6 +163,8 @@ class ChannelSetup : public language::Environment {
   double handwheel_share() const { return handwheel_share_; }
   /// Machine time that a jog movement without an increment lasts without a renewal.
   double jog_renewal_seconds() const { return jog_renewal_seconds_; }
+  /// What a summary of a program counts for M6.
+  double tool_change_seconds() const { return tool_change_seconds_; }
   double reference_feed(std::uint8_t axis) const { return reference_feed_[axis]; }
   double cycle_seconds() const { return cycle_seconds_; }
   const machine::StreamSettings& stream(bool virtual_time) const {
@@ -203,7 +205,7 @@ class ChannelSetup : public language::Environment {
   bool diameter_programming_ = false;
   double scaling_unit_ = 1;
   double default_feed_ = 1000, dry_run_feed_ = 2000, handwheel_share_ = 0.2;
-  double jog_renewal_seconds_ = 0.25;
+  double jog_renewal_seconds_ = 0.25, tool_change_seconds_ = 10;
   language::ModalState power_on_;
   language::MFunctions m_functions_;
   bool plane_angles_by_p_ = false, haas_radius_offsets_ = false, zone_forbids_outside_ = false;

@@ -37,6 +37,8 @@ struct CallSite {
   std::uint32_t line = 0;     ///< from 1
 };
 
+struct ForeignWord;
+
 /// An alarm with its place. The caller knows the file name and formats `file:line:column: text`.
 struct Alarm {
   AlarmNumber number = AlarmNumber::none;
@@ -46,6 +48,7 @@ struct Alarm {
   std::array<char, 192> text{};               ///< what is wrong and the word at fault, ends with a zero
   std::uint8_t calls = 0;                     ///< how many calls led here
   std::array<CallSite, max_nesting> chain{};  ///< their places, the main program's first
+  const ForeignWord* foreign = nullptr;       ///< the word at fault is one of another control
 };
 
 /// Composes the alarm for a fault in `line_text`, which may be empty when the line is not at hand. The

@@ -170,6 +170,8 @@ class Dialect {
  public:
   virtual ~Dialect() = default;
   virtual DialectRules rules() const { return {}; }
+  /// A word that it does not have is looked up among those of other controls.
+  virtual bool names_foreign_words() const { return true; }
   /// Reads one line (without its line end) into `block`; assignments in it are carried out.
   virtual Fault read_block(std::string_view line, SkipLevels skip, Variables& variables,
                            Block& block) const = 0;

@@ -48,9 +48,8 @@ Fault BlockWords::collect_g() {
     const CodeWord& word = block_->g[i];
     const double tenths = std::round(word.value * 10);
     const bool exact = std::abs(word.value * 10 - tenths) < 1e-9 && tenths >= 0 && tenths < 10000;
-    const auto number = static_cast<std::uint32_t>(exact ? tenths : 0);
-    const GCode* const code = exact ? g_code(number) : nullptr;
-    if (code == nullptr) return {AlarmNumber::unknown_g, word.offset, exact ? refused_g(number) : nullptr};
+    const GCode* const code = exact ? g_code(static_cast<std::uint32_t>(tenths)) : nullptr;
+    if (code == nullptr) return {AlarmNumber::unknown_g, word.offset};
     if (g_.has(code->group)) return {AlarmNumber::group_twice, word.offset};
     g_.add(*code, word.offset);
   }

@@ -367,24 +367,6 @@ constexpr std::array rows = {
           Origin::haas, "0.3", "G187 P3 E0.01"},
 };
 
-struct Refused {
-  std::uint16_t tenths;
-  const char* why;
-};
-constexpr const char* no_polar = "polar interpolation on C is not possible";
-constexpr const char* no_cylinder = "cylindrical interpolation is not possible";
-constexpr std::array refused = {
-    Refused{71, no_cylinder},
-    Refused{121, no_polar},
-    Refused{131, no_polar},
-    Refused{431, "write G43.4 H, or G43 H in a tilted plane"},
-    Refused{542, "write G43.4 H: the zero turns with the table"},
-    Refused{1070, no_cylinder},
-    Refused{1120, no_polar},
-    Refused{1130, no_polar},
-    Refused{1500, "write G65 P90150 or G12, G13"},
-};
-
 constexpr std::uint8_t no_code = 0xff;
 constexpr std::size_t g_numbers = 1900;  // tenths below it can be codes
 static_assert(rows.back().tenths < g_numbers && rows.size() < no_code);
@@ -398,12 +380,6 @@ constexpr auto g_index = [] {
 }  // namespace
 
 constinit const std::span<const GCode> g_codes = rows;
-
-const char* refused_g(std::uint32_t tenths) {
-  for (const Refused& code : refused)
-    if (code.tenths == tenths) return code.why;
-  return nullptr;
-}
 
 const GCode* g_code(std::uint32_t tenths) {
   if (tenths >= g_index.size() || g_index[tenths] == no_code) return nullptr;

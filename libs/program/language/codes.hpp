@@ -82,10 +82,6 @@ extern const std::span<const GCode> g_codes;
 /// The code with this number times ten, or nullptr.
 const GCode* g_code(std::uint32_t tenths);
 
-/// Of a code of other controls that is not here: why, or what to write instead, at most 48 characters;
-/// otherwise nullptr.
-const char* refused_g(std::uint32_t tenths);
-
 /// When an M code acts, seen from the motion of its block.
 enum class When : std::uint8_t { before, after };
 

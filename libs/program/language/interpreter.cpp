@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "language/foreign_words.hpp"
 #include "language/haas_dialect.hpp"
 #include "language/iso_dialect.hpp"
 #include "language/iso_line.hpp"
@@ -148,7 +149,20 @@ Alarm Interpreter::located(const Fault& fault, std::string_view line) {
 
 Interpreter::State Interpreter::fail(const Fault& fault, std::string_view line) {
   if (fault.number == value_pending) return ask_value(line);
-  return fail(located(fault, line));
+  return fail(named(fault, line));
+}
+
+// An M code is above all one that the machine does not have: its alarm keeps the number.
+Alarm Interpreter::named(const Fault& fault, std::string_view line) {
+  Fault found = fault;
+  const ForeignWord* const word =
+      dialect_->names_foreign_words() ? find_foreign_word(fault, line, found.offset) : nullptr;
+  if (word == nullptr) return located(fault, line);
+  if (fault.number != AlarmNumber::unknown_m) found.number = AlarmNumber::foreign_word;
+  found.detail = word->shown;
+  Alarm alarm = located(found, line);
+  alarm.foreign = word;
+  return alarm;
 }
 
 // The line has had no effect yet but for what it has stored: that is taken back, and the line is read again.
@@ -281,6 +295,9 @@ Interpreter::State Interpreter::execute_block(std::string_view line) {
     control_.set_program_number(block_.program_number);
   }
   if (block_.statement != Statement::none || !block_.empty()) ++blocks_;
+  if (block_watch_ != nullptr)
+    block_watch_->begin(
+        {block_, line, level.program, line_, executor_.modal(), executor_.program_position()});
   if (block_.has('N')) control_.set_sequence_number(block_.value('N'));
   if (block_.statement != Statement::none) {
     level.started = true;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "language/block_executor.hpp"
+#include "language/block_watch.hpp"
 #include "language/control_variables.hpp"
 #include "language/endless_loop.hpp"
 #include "language/head_dialect.hpp"
@@ -81,6 +82,9 @@ class Interpreter {
   /// Ends a program, without the end command, where `watch` finds that it repeats for ever. It must be used
   /// for one program and outlive it; null: none.
   void watch_loops(EndlessLoop* watch) { watch_ = watch; }
+
+  /// Lets `watch` see the blocks as they are read; it must outlive the interpreter's use; null: none.
+  void watch_blocks(BlockWatch* watch) { block_watch_ = watch; }
 
   /// The next command. Before start() there is only the end.
   Step next(Command& command);
@@ -229,6 +233,7 @@ class Interpreter {
   State fail(const Alarm& alarm);
   State report_line_status(LineReader::Status status, Step& step);
   Alarm located(const Fault& fault, std::string_view line);
+  Alarm named(const Fault& fault, std::string_view line);
 
   State run_statement(std::string_view line);
   State call_cycle(std::string_view line);
@@ -285,6 +290,7 @@ class Interpreter {
   std::uint32_t line_ = 0;  // of the block being executed
   std::uint32_t stop_line_ = 0;
   EndlessLoop* watch_ = nullptr;
+  BlockWatch* block_watch_ = nullptr;
   std::uint64_t blocks_ = 0, lines_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides

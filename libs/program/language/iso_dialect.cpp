@@ -347,8 +347,6 @@ class BlockReader {
       block_.rest = scanner_.offset();
     } else if (scanner_.take_word("ELSE")) {
       fault = state(Statement::else_);
-    } else if (scanner_.looking_at("MCALL")) {
-      return {AlarmNumber::cycle_foreign, at, "write G81 .. G89, and G80 behind the holes"};
     } else if (scanner_.looking_at("CYCLE")) {
       calls_cycle_ = true;
       fault = cycle();

@@ -29,6 +29,8 @@ namespace trunnion::language {
 class NumDialect final : public Dialect {
  public:
   DialectRules rules() const override;
+  /// Its own alarms name what NUM controls have.
+  bool names_foreign_words() const override { return false; }
   Fault read_block(std::string_view line, SkipLevels skip, Variables& variables, Block& block) const override;
   /// There is no ELSEIF.
   Fault read_condition(std::string_view line, std::uint16_t rest, const Variables& variables,

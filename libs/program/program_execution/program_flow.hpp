@@ -88,6 +88,9 @@ class ProgramFlow {
   /// Ends a program where `watch` finds that it repeats for ever: Interpreter::watch_loops().
   void watch_loops(language::EndlessLoop* watch) { interpreter_.watch_loops(watch); }
 
+  /// As Interpreter::watch_blocks().
+  void watch_blocks(language::BlockWatch* watch) { interpreter_.watch_blocks(watch); }
+
   /// `motion` takes the moves and must be at rest at `position`, in the frame of `initial`; it and `text`
   /// must outlive the run, which ends with the next start(). A restart needs the variables the program began
   /// with, because it interprets the program again.

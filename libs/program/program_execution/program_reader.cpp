@@ -30,6 +30,7 @@ ProgramReader::ProgramReader(language::Environment& environment, const ReadingOp
 Ending ProgramReader::read(language::TextSource& text, const AxisValues& start) {
   from_ = start;
   flow_.set_guard(options_.guard);
+  flow_.watch_blocks(options_.watch);
   flow_.watch_loops(options_.find_repetition ? &loop_ : nullptr);
   flow_.on_move = [this](const Command& move) { pass(flow_.pending(), move); };
   motion_->moves().start(start, transformation_, tool_length_);

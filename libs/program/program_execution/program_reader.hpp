@@ -26,7 +26,8 @@ enum class Ending : std::uint8_t {
 
 struct ReadingOptions {
   language::SkipLevels block_skip = 0;
-  MoveGuard* guard = nullptr;  ///< looks at the moves; must outlive the reader
+  MoveGuard* guard = nullptr;             ///< looks at the moves; must outlive the reader
+  language::BlockWatch* watch = nullptr;  ///< sees the blocks before their commands come; likewise
   bool find_repetition = true;
   /// In a row, without a move, after which a program is Ending::idle.
   std::uint64_t most_idle_lines = 100000000;

@@ -32,7 +32,7 @@ std::string summary_of(const std::string& program, const CheckOptions& options =
 
 TEST(Summary, MovesLengthsTimesToolsAndExtents) {
   // Rapid 5, line 10 at 100, half a circle of radius 5 (15.708) at 50: 0.1 + 0.31416 min.
-  EXPECT_EQ(summary_of("T3 M6\nG0 X3 Y4\nG1 X13 F100\nG3 X3 I-5 F50\nG4 P500\nM30\n"),
+  EXPECT_EQ(summary_of("G21 G90 G54 T3 M6 S500 M3\nG0 X3 Y4\nG1 X13 F100\nG3 X3 I-5 F50\nG4 P500\nM30\n"),
             "blocks   6\n"
             "moves    1 rapid, 1 lines, 1 arcs\n"
             "path     5.000 mm rapid, 25.708 mm at feed\n"
@@ -67,7 +67,7 @@ TEST(Summary, WarnsWhereTheTimeDependsOnWhatFCounts) {
                   "both (04c919 = 0), 0.01 s when it counts the linear ones (1)\n"));
   for (const char* program :
        {"G1 X10 A5 F500\n", "G1 A30 F500\n", "G1 X10 F500\n", "G43.4 H1\nG1 X0.05 A30 F500\n"})
-    EXPECT_EQ(summary_on(true, program).find("warning"), std::string::npos) << program;
+    EXPECT_EQ(summary_on(true, program).find("04c919"), std::string::npos) << program;
 }
 
 TEST(Summary, WarnsWherePOfATiltedPlaneMeansSomethingElseOnOtherControls) {
@@ -84,8 +84,8 @@ TEST(Summary, WarnsWherePOfATiltedPlaneMeansSomethingElseOnOtherControls) {
   };
   EXPECT_THAT(summary_on(false, "P1"),
               HasSubstr("warning  line 1: P1 of a tilted plane chooses the solution"));
-  EXPECT_EQ(summary_on(false, "P0").find("warning"), std::string::npos);
-  EXPECT_EQ(summary_on(true, "P1").find("warning"), std::string::npos);
+  EXPECT_EQ(summary_on(false, "P0").find("of a tilted plane"), std::string::npos);
+  EXPECT_EQ(summary_on(true, "P1").find("of a tilted plane"), std::string::npos);
 }
 
 // The table turns 0.5 degrees on over the full turn, in tool tip control too, and has no travel limits.
@@ -111,6 +111,12 @@ TEST(Summary, AlarmNamesFileLineColumnAndNumber) {
   EXPECT_THAT(summary_of("G0 X1\nG0 X2 Q\n"), HasSubstr("part.nc:2:7: 1005: letter without a number: Q\n"));
   EXPECT_THAT(summary_of("M98 P2\nM30\nO2\nG77\nM99"), HasSubstr("part.nc:4:1: 1101: unknown G code: G77\n"
                                                                  "  called from part.nc:1\n"));
+}
+
+TEST(Summary, AnAlarmAtAWordOfAnotherControlHasItsRowBesides) {
+  EXPECT_THAT(summary_of("G0 X1\nTRAFOOF\n"),
+              HasSubstr("part.nc:2:1: 1540: word of another control: TRAFOOF, Siemens: write G49\n"
+                        "  Siemens: transformation off. Here: G49.\n"));
 }
 
 TEST(Summary, AMotionBeyondTheTravelEndsTheCheckWithItsLineAndAxis) {

@@ -103,6 +103,13 @@ TEST(JsonLines, AlarmIsTheLastLine) {
       Json::parse(R"({"error":{"line":2,"column":7,"number":1005,"text":"letter without a number: Q"}})"));
 }
 
+TEST(JsonLines, AlarmAtAWordOfAnotherControlHasARemedy) {
+  const auto lines = lines_of("TRAFOOF\n");
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0]["error"]["number"], 1540);
+  EXPECT_EQ(lines[0]["error"]["remedy"], "Siemens: transformation off. Here: G49.");
+}
+
 TEST(JsonLines, AlarmInASubprogramSaysWhoCalled) {
   const auto lines = lines_of("G0 X1\nM98 P7\nM30\nO7\nG65 P8\nM99\nO8\n#3000=1(\"STOP\\NOW\")\nM99\n");
   ASSERT_EQ(lines.size(), 2u);

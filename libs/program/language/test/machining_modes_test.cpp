@@ -137,8 +137,8 @@ TEST(MachiningModes, WhatTheyDoNotKnowIsAnAlarmThatSaysWhatTheyTake) {
       {"G187 E-1\n", AlarmNumber::value_range, "E-1"},
       {"G62 P1\n", AlarmNumber::unused_word, "P1"},
       {"G61.1 G64\n", AlarmNumber::group_twice, "G64"},
-      {"G43.1 H1\n", AlarmNumber::unknown_g, "G43.1, write G43.4 H, or G43 H in a tilted plane"},
-      {"G54.2 P1\n", AlarmNumber::unknown_g, "G54.2, write G43.4 H: the zero turns with the table"},
+      {"G43.1 H1\n", AlarmNumber::foreign_word, "G43.1, Fanuc: write G43.4 H_, or G43 H_ behind G68.2"},
+      {"G54.2 P1\n", AlarmNumber::foreign_word, "G54.2, Fanuc: write G43.4 H_: the zero turns along"},
       {"G77\n", AlarmNumber::unknown_g, "G77"},
   };
   for (const Case& c : cases) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "language/decimal.hpp"
+#include "language/foreign_words.hpp"
 #include "language/interpreter.hpp"
 
 namespace trunnion::language {
@@ -46,6 +47,16 @@ void check_leader(const Dialect& dialect, std::string_view line, const Block& bl
     require(!leader.passes);
 }
 
+/// Wherever in the line a fault is, what is found begins in it.
+void check_foreign(const Fault& fault, std::string_view line) {
+  for (const std::size_t offset : {std::size_t{fault.offset}, line.size() / 2, line.size()}) {
+    const Fault there{fault.number, static_cast<std::uint16_t>(offset)};
+    std::uint16_t at = there.offset;
+    const ForeignWord* const word = find_foreign_word(there, line, at);
+    require(word == nullptr ? at == there.offset : at < line.size());
+  }
+}
+
 void check(const Dialect& dialect, std::string_view line, SkipLevels skip, Variables& variables,
            Block& block) {
   const Outline outline = dialect.outline(line, skip);
@@ -56,6 +67,7 @@ void check(const Dialect& dialect, std::string_view line, SkipLevels skip, Varia
     require(fault.offset <= line.size());
     const Alarm alarm = make_alarm(fault, line, 0, 1);
     require(alarm.text.back() == '\0');
+    check_foreign(fault, line);
     return;
   }
   for (std::size_t i = 0; i < 26; ++i) {

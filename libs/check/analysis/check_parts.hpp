@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a check and a summary have in common: how the program is read, and what is said of its end.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "analysis/check_program.hpp"
+#include "analysis/warnings.hpp"
+#include "program_execution/program_reader.hpp"
+
+namespace trunnion::analysis {
+
+/// `watch` may be null.
+program_execution::ReadingOptions reading_options(const CheckOptions& options, language::BlockWatch* watch);
+
+/// The alarm of a program that was not read to its end: that of the reader, or why it gave up.
+language::Alarm alarm_of(const program_execution::ProgramReader& reader, program_execution::Ending ending);
+/// Its text; one of the machine has bodies and positions, for which the alarm itself has no room.
+std::string alarm_text_of(const program_execution::ProgramReader& reader, program_execution::Ending ending);
+
+/// Lines for anything but a good end.
+void print_ending(const program_execution::ProgramReader& reader, program_execution::Ending ending,
+                  const TextName& name, std::ostream& out);
+
+/// A line for each.
+std::string warning_lines(const Warnings& warnings, const TextName& name);
+
+}  // namespace trunnion::analysis
