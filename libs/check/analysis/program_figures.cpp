@@ -8,6 +8,7 @@
 
 #include "analysis/block_codes.hpp"
 #include "language/arc_geometry.hpp"
+#include "language/codes.hpp"
 #include "language/foreign_words.hpp"
 
 namespace trunnion::analysis {
