@@ -39,6 +39,13 @@ struct Tilt {
   }
 };
 
+/// Bits of ModalState::suppressed: what a program keeps from acting on its blocks (#3003, #3004).
+inline constexpr std::uint8_t no_single_block = 1;
+inline constexpr std::uint8_t no_feed_hold = 2;  ///< of the operator; it acts behind the blocks
+inline constexpr std::uint8_t no_override = 4;   ///< of the feed
+inline constexpr std::uint8_t no_exact_stop = 8;
+inline constexpr unsigned path_suppression = 1;  ///< the last three are #3004, so many bits to the left
+
 /// The modal state a command was made in: what the HMI shows, and what a restart at this command restores.
 struct ModalState {
   std::uint8_t motion = 0;  ///< 0, 1, 2, 3 (G0..G3), 33, 34 (G33 and G32, G34) or 62 (G6.2)
@@ -73,13 +80,15 @@ struct ModalState {
   double path_tolerance = 0;  ///< P of G64, mm; 0 = the channel's own
   Tilt tilt{};                ///< words are in this plane; targets of commands never are
   std::uint32_t frame = 0;    ///< names the frame of the words: Interpreter::frame_of()
+  /// Of no_single_block and those behind it.
+  std::uint8_t suppressed = 0;
   bool operator==(const ModalState&) const = default;
 
   /// G43.4 or G43.5: the tool tip stays on the path while rotary axes move.
   bool tip_control() const { return transformation == Transformation::rtcp && !plane_only; }
 
   /// Every field that a channel keeps from one line or process to the next. No field, an interpreter names
-  /// frames of its own: frame.
+  /// frames of its own: frame. No field, another process suppresses nothing: suppressed.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("motion", self.motion), visit("plane", self.plane), visit("absolute", self.absolute);
@@ -141,6 +150,7 @@ enum class Table : std::uint8_t {
   tool_radius,       ///< likewise
   tool_radius_wear,  ///< likewise
   parameter,         ///< number = parameter, value
+  parts,             ///< value = parts machined, of the channel that runs the program
 };
 
 struct Arc {

@@ -34,6 +34,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
     state.thread_lead = 0;
+    state.modal.suppressed = 0;
   }
   state.needs_position = state.homing = false;
   state.homed = 0;
@@ -406,6 +407,22 @@ Fault BlockExecutor::write_parameter(std::uint32_t number, double value, std::ui
   command.number = number;
   command.value = value;
   return context_.output.settle();
+}
+
+Fault BlockExecutor::write_parts(double parts, std::uint32_t program, std::uint32_t line, CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  Command& command = context_.output.push(CommandKind::table);
+  command.table = Table::parts;
+  command.value = parts;
+  return context_.output.settle();
+}
+
+void BlockExecutor::suppress(bool single_block, std::uint8_t value) {
+  constexpr unsigned alone = canonical::no_single_block;
+  const unsigned before = context_.state.modal.suppressed;
+  const unsigned chosen = value;
+  context_.state.modal.suppressed = static_cast<std::uint8_t>(
+      single_block ? (before & ~alone) | chosen : (before & alone) | (chosen << canonical::path_suppression));
 }
 
 }  // namespace trunnion::language

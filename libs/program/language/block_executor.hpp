@@ -109,6 +109,11 @@ class BlockExecutor {
   Fault write_parameter(std::uint32_t number, double value, std::uint32_t program, std::uint32_t line,
                         CommandQueue& out);
 
+  /// Appends the number of parts that the channel has machined.
+  Fault write_parts(double parts, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+  /// `value` of #3003 when `single_block`, else of #3004: from the next command on.
+  void suppress(bool single_block, std::uint8_t value);
+
   const ModalState& modal() const { return context_.state.modal; }
   /// Where the last move that was read ends, in the frame of its commands. With cutter compensation this is
   /// the contour, not the centre of the tool.

@@ -96,6 +96,14 @@ class Environment {
   virtual AxisValues work_offset(std::uint8_t index) const = 0;
   /// Of every program and every line of manual data input of the channel.
   virtual ProgramDialect program_dialect() const { return ProgramDialect::iso; }
+  /// Parameter `number` of the machine as it was when the program began (PRM); nothing when there is none, or
+  /// when it is a text.
+  virtual std::optional<double> parameter(std::uint32_t number) const {
+    static_cast<void>(number);
+    return std::nullopt;
+  }
+  /// #2501 to #2706 are work offsets and not tools (parameter 040722).
+  virtual bool offsets_by_axis() const { return false; }
   /// External parameter `number` of the NUM dialect, in the unit of its row in num_parameters.hpp; nothing
   /// when the machine does not have it.
   virtual std::optional<double> external_parameter(std::uint32_t number) const {

@@ -99,6 +99,9 @@ class Interpreter {
   /// more, and a program that asks (#1321) has an alarm. All before the first call.
   void set_homed(std::optional<std::uint16_t> axes) { control_.set_homed(axes); }
 
+  /// The parts machined, which #3901 reads until the program writes it.
+  void set_parts(double parts) { control_.set_parts(parts); }
+
   /// The answer of a called cycle, which #3100 reads. Programs that are called from now on are looked for
   /// again: the service may have stored another text.
   void answer(double value);

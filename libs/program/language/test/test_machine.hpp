@@ -44,7 +44,9 @@ struct TestMachine : Environment {
   std::optional<MFunctions> functions;  // nothing: every M code may stand
   DwellPoint point = DwellPoint::refused;
   ProgramDialect dialect = ProgramDialect::iso;
-  std::map<std::uint32_t, double> external;  // parameters of the NUM dialect
+  std::map<std::uint32_t, double> external;    // parameters of the NUM dialect
+  std::map<std::uint32_t, double> parameters;  // PRM
+  bool by_axis = false;                        // #2501 is a work offset
   AngleMCodes angle_codes{19, -1, -1, -1};
 
   AxisValues work_offset(std::uint8_t index) const override {
@@ -79,6 +81,11 @@ struct TestMachine : Environment {
   const MFunctions* m_functions() const override { return functions ? &*functions : nullptr; }
   DwellPoint dwell_point() const override { return point; }
   ProgramDialect program_dialect() const override { return dialect; }
+  std::optional<double> parameter(std::uint32_t number) const override {
+    const auto found = parameters.find(number);
+    return found == parameters.end() ? std::nullopt : std::optional(found->second);
+  }
+  bool offsets_by_axis() const override { return by_axis; }
   std::optional<double> external_parameter(std::uint32_t number) const override {
     const auto found = external.find(number);
     return found == external.end() ? std::nullopt : std::optional(found->second);
