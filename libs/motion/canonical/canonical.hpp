@@ -139,6 +139,7 @@ enum class CommandKind : std::uint8_t {
   read,     ///< a value of a spindle (canonical/spindle_value.hpp) behind dwell_seconds at rest, number as
             ///< read_number(); nothing further is read before Interpreter::give_value()
   spindle_order,  ///< what the PLC is to do with a spindle: number as order_master and others, value
+  print,  ///< a line for a file (DPRNT), with the axes at rest; its text is Interpreter::print_text()
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.

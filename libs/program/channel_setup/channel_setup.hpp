@@ -11,6 +11,7 @@
 
 #include "channel_setup/axis_box.hpp"
 #include "channel_setup/control_macros.hpp"
+#include "channel_setup/macro_settings.hpp"
 #include "channel_setup/travel_search.hpp"
 #include "contracts/types.hpp"
 #include "geometry/chain.hpp"
@@ -49,7 +50,8 @@ class ChannelSetup : public language::Environment {
   explicit ChannelSetup(const tool_tables::MachineTables& tables);
 
   /// Throws std::runtime_error when the kinematic parameters make no chain, the chain turns a letter that the
-  /// channel does not have, or the parameters of the compensation or the list of M functions are not valid.
+  /// channel does not have, or the parameters of the compensation, the list of M functions or the codes that
+  /// call programs are not valid.
   void configure(const machine::Parameters& parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);
@@ -77,6 +79,10 @@ class ChannelSetup : public language::Environment {
   language::AngleMCodes angle_m_codes() const override { return angle_m_codes_; }
   language::DwellPoint dwell_point() const override { return dwell_point_; }
   language::ProgramDialect program_dialect() const override { return program_dialect_; }
+  language::CodeCalls code_calls() const override { return macro_settings_.calls; }
+  bool prints_blanks() const override { return macro_settings_.prints_blanks; }
+  bool offsets_by_axis() const override { return macro_settings_.offsets_by_axis; }
+  std::optional<double> parameter(std::uint32_t number) const override;
   /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
   std::optional<double> external_parameter(std::uint32_t number) const override;
   language::ParameterChanges external_changes(std::uint32_t number, double value) const override;
@@ -182,6 +188,8 @@ class ChannelSetup : public language::Environment {
   bool plane_angles_by_p_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
   language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;
+  MacroSettings macro_settings_;
+  machine::Parameters parameters_;
   struct ExternalParameter {
     double value = 0;
     std::uint32_t parameter = 0;

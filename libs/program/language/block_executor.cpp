@@ -86,8 +86,9 @@ Fault BlockExecutor::run(Flow& flow) {
   if (const Fault fault = carry_out(groups(Group::plane, Group::cycle))) return fault;
   handlers_.cycles.restart_spindle();
   const GCodes& g = context_.words.g();
-  if (const Fault fault =
-          g.has(Group::tool_length) ? carry_out(group_bit(Group::tool_length)) : handlers_.tool.length_word())
+  if (const Fault fault = g.has(Group::tool_length) ? carry_out(group_bit(Group::tool_length))
+                          : calls()                 ? Fault{}
+                                                    : handlers_.tool.length_word())
     return fault;
   if (const Fault fault = g.has(Group::cutter_compensation) ? carry_out(group_bit(Group::cutter_compensation))
                                                             : handlers_.tool.radius_word())
@@ -306,9 +307,32 @@ Fault BlockExecutor::set_call(Flow& flow) {
     if (words.has(letter) && words.used(letter)) return {AlarmNumber::unused_word, words.offset(letter)};
   }
   if (const Fault fault = words.whole_number('P', 1, 99999999, flow.subprogram)) return fault;
+  if (const Fault fault = set_label(flow)) return fault;
   if (!words.has('L')) return {};
   flow.counted = true;
-  return words.whole_number('L', 1, highest_repetition, flow.repetitions);
+  if (const Fault fault = words.whole_number('L', 0, highest_repetition, flow.repetitions)) return fault;
+  if (flow.repetitions == 0) flow.kind = Flow::Kind::next;
+  return {};
+}
+
+// H is the tool length where G43 has taken it, as Q may be a word of a cycle.
+Fault BlockExecutor::set_label(Flow& flow) {
+  BlockWords& words = context_.words;
+  for (const char letter : {'H', 'Q'}) {
+    if (!words.has(letter) || words.used(letter)) continue;
+    if (flow.from_label) return {AlarmNumber::unused_word, words.offset(letter)};
+    flow.from_label = true;
+    flow.label_offset = words.offset(letter);
+    if (const Fault fault = words.whole_number(letter, 0, 99999999, flow.label)) return fault;
+  }
+  return {};
+}
+
+bool BlockExecutor::calls() const {
+  const MCodes& m = context_.words.m();
+  for (std::size_t i = 0; i < m.count; ++i)
+    if (m.codes[i].action == MAction::call) return true;
+  return false;
 }
 
 void BlockExecutor::set_position(const AxisValues& position) {
@@ -362,6 +386,13 @@ Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::u
   context_.output.begin(program, line, out);
   context_.output.push(CommandKind::message).number = number;
   context_.output.push(CommandKind::auxiliary).number = 0;
+  return context_.output.settle();
+}
+
+Fault BlockExecutor::print(std::uint32_t program, std::uint32_t line, CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  if (const Fault fault = context_.output.refuse_in_compensation(0)) return fault;
+  context_.output.push(CommandKind::print);
   return context_.output.settle();
 }
 

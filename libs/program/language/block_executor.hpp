@@ -26,7 +26,10 @@ struct Flow {
   std::uint32_t subprogram = 0;   ///< of call
   std::uint32_t repetitions = 1;  ///< of call
   bool counted = false;           ///< the repetitions were given
-  std::uint16_t offset = 0;       ///< of the M word in its line
+  bool from_label = false;        ///< of call: it begins at the sequence number `label`
+  std::uint32_t label = 0;
+  std::uint16_t label_offset = 0;
+  std::uint16_t offset = 0;  ///< of the M word in its line
 };
 
 /// Executes blocks one after the other. Order within a block, which is not the order of its words:
@@ -92,6 +95,10 @@ class BlockExecutor {
   /// read.
   Fault message(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
+  /// Appends the printing of a line (DPRNT). Not with cutter radius compensation: only the newest line has
+  /// its text.
+  Fault print(std::uint32_t program, std::uint32_t line, CommandQueue& out);
+
   /// Appends the search for the reference of `axis` at F, if the channel has it.
   Fault home_axis(std::size_t axis, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
@@ -153,6 +160,9 @@ class BlockExecutor {
   Fault orientation(std::uint16_t code, char word, double& angle);
   Fault set_flow(Flow& flow);
   Fault set_call(Flow& flow);
+  Fault set_label(Flow& flow);
+  /// An M code of the block calls a subprogram.
+  bool calls() const;
 
   BlockContext context_;
   BlockHandlers handlers_;

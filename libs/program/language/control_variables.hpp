@@ -63,6 +63,7 @@ class ControlVariables final : public SystemVariables {
   AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const override;
   AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) override;
   AlarmNumber read_parameter(std::uint32_t number, double& value) const override;
+  bool prints_blanks() const override { return environment_.prints_blanks(); }
   AlarmNumber read_external(std::uint32_t number, double& value) const override;
   Fault write_external(std::uint32_t number, double value) override;
 

@@ -74,6 +74,8 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   control_.set_skip_position(variables_.skip_position());
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i)
     cycle_m_codes_[i] = rules_.cycle_m_codes ? environment_.cycle_m_code(i) : std::uint16_t{0};
+  code_calls_ = environment_.code_calls();
+  calls_by_code_ = rules_.cycle_m_codes && code_calls_ != CodeCalls{};
   queue_.clear();
   alarm_ = Alarm{};
   depth_ = 0;
@@ -235,6 +237,9 @@ Interpreter::State Interpreter::execute_words(std::string_view line) {
   if (const Fault fault = carry_out_requests()) return fail(fault, line);
   if (rules_.text_ends_subprograms && depth_ != 0 && !block_.ends_program) return_at_end(block_);
   if (block_.message) message_size_ = copy_shown(line.substr(block_.message_at), message_);
+  if (calls_by_code_ && !levels_[depth_].by_code) {
+    if (const auto called = call_by_code(line)) return *called;
+  }
   Call call;
   if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);
   const auto* const modal = modal_calls_.active();
@@ -267,6 +272,9 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   subprogram.counted = flow.counted;
   subprogram.offset = flow.offset;
   subprogram.program_offset = block_.offset('P');
+  subprogram.from_label = flow.from_label;
+  subprogram.label = flow.label;
+  subprogram.label_offset = flow.label_offset;
   return call(subprogram, line);
 }
 

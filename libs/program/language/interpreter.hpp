@@ -46,11 +46,11 @@ inline constexpr VariableStore no_variables{};
 ///
 /// M98 P1234 and G65 P1234 call the program that begins with O1234 or %1234 in the same text, else the text
 /// Environment::subprogram finds for "O1234"; M98 P31234 without L calls O1234 three times when there is no
-/// O31234; G1007 calls %1007 of the text "USERDEF.CYC". A main program ends with M2, M30, its text, a lone %
-/// or the head of the next program; M99 there starts it again from its top. A subprogram must end with M99.
-/// GOTO and M99 P look for N forward, then from the top of the program. While G66 is active, each block that
-/// moves, but for those of the called macro itself, is followed by the call. What the NUM dialect has instead
-/// is in num_dialect.hpp.
+/// O31234, and M98 P1234 H5 begins at its N5; G1007 calls %1007 of the text "USERDEF.CYC". A main program
+/// ends with M2, M30, its text, a lone % or the head of the next program; M99 there starts it again from its
+/// top. A subprogram must end with M99. GOTO and M99 P look for N forward, then from the top of the program.
+/// While G66 is active, each block that moves, but for those of the called macro itself, is followed by the
+/// call. What the NUM dialect has instead is in num_dialect.hpp.
 class Interpreter {
  public:
   /// `environment` and `dialect` must outlive the interpreter. Without a dialect the environment names that
@@ -136,6 +136,9 @@ class Interpreter {
   /// bytes: until next() is called behind its CommandKind::message.
   std::string_view message_text() const { return {message_.data(), message_size_}; }
 
+  /// The line that a CommandKind::print has: until next() is called behind it.
+  std::string_view print_text() const { return block_.printed.view(); }
+
   /// Positions, frames and tables as the program has left them, for system variables.
   const BlockExecutor& executor() const { return executor_; }
 
@@ -152,6 +155,9 @@ class Interpreter {
     std::uint32_t remaining = 0;  // repetitions after this one
     bool started = false;         // a head or a word has been read
     bool own_variables = false;
+    bool by_code = false;     // codes that call programs are ordinary ones here
+    bool from_label = false;  // begins at `label`
+    std::uint32_t label = 0;
     bool modal = false;           // called by G66
     std::size_t modal_above = 0;  // of ModalCalls::enter()
     OpenStructures open;
@@ -179,6 +185,7 @@ class Interpreter {
     std::uint32_t wanted = 0;
     TextPosition from;      // of the line that jumps
     bool from_top = false;  // second half of the search for a label
+    bool heading = false;   // of a label from the top on: the head of the program has not been passed
     std::size_t depth = 0;  // structures open at the jump
     OpenStructures open;
   };
@@ -215,9 +222,11 @@ class Interpreter {
   }
 
   State call_macro(Call& call, std::string_view line);
+  std::optional<State> call_by_code(std::string_view line);
   State call(const Call& call, std::string_view line);
   State found(TextSource& source, std::uint32_t program, TextPosition top);
   State enter(const Found& target);
+  State begin_program();
   /// The axis whose number is in L0: X Y Z U V W A B C.
   std::optional<std::size_t> homing_axis() const;
   State home_axis();
@@ -235,6 +244,8 @@ class Interpreter {
   CommandQueue queue_;
   Block block_;
   CycleMCodes cycle_m_codes_{};
+  CodeCalls code_calls_;
+  bool calls_by_code_ = false;
   std::array<CallLevel, max_nesting + 1> levels_{};
   std::size_t depth_ = 0;
   State state_ = State::done;
@@ -252,6 +263,7 @@ class Interpreter {
   JumpCache jumps_;
   Alarm not_found_;
   Alarm not_allowed_;
+  Alarm label_not_found_;  // of the sequence number at which a called program begins
   // A call that looks for its program: what was called and where to return to.
   Call call_;
   std::uint32_t called_ = 0;  // the number as written

@@ -197,6 +197,8 @@ class SystemVariables {
     value = 0;
     return AlarmNumber::parameter_unavailable;
   }
+  /// DPRNT prints blanks where a number has no sign or fewer digits than places.
+  virtual bool prints_blanks() const { return true; }
   /// An external parameter of the NUM dialect, by its number.
   virtual AlarmNumber read_external(std::uint32_t number, double& value) const {
     static_cast<void>(number);
@@ -243,6 +245,7 @@ class Variables {
   AlarmNumber read_parameter(std::uint32_t number, double& value) const {
     return system_.read_parameter(number, value);
   }
+  bool prints_blanks() const { return system_.prints_blanks(); }
   /// As SystemVariables; counts as a system variable that was read.
   AlarmNumber read_external(std::uint32_t number, double& value) const {
     ++system_reads_;

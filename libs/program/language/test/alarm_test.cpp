@@ -82,7 +82,7 @@ std::vector<Wrong> wrong_programs() {
       {value_range, "S-1", 1, 1, ": S-1"},
       {value_range, "G4 P-1", 1, 4, ": P-1"},
       {value_range, "G4 X100000", 1, 4, ": X100000"},
-      {value_range, "M98 P1 L0", 1, 8, ": L0"},
+      {value_range, "M98 P1 L-1", 1, 8, ": L-1"},
       {value_range, "G2 I1 L0 F1", 1, 7, ": L0"},
       // 10 mm at a lead of 0.001 mm are 10,000 turns; 9999 are the most.
       {value_range, "G2 X10 Z10 I5 J0 K.001 F1", 1, 18, ": K.001"},
@@ -215,6 +215,21 @@ std::vector<Wrong> wrong_programs() {
       {parts_required, "#3902=5", 1, 1, ": #3902"},
       {servo_deviation_unknown, "G0 X#5101", 1, 5, ": #5101"},
       {parameter_unavailable, "#1=PRM[1320]", 1, 4, ": PRM"},
+      {print_places, "DPRNT[X#1]", 1, 8, ": #1"},
+      {print_places, "DPRNT[X#1[5]]", 1, 8, ": #1"},
+      {print_places, "DPRNT[X#1[00]]", 1, 8, ": #1"},
+      {print_places, "DPRNT[X#1[55]]", 1, 8, ": #1"},
+      {print_too_long, "DPRNT[" + std::string(201, 'A') + "]", 1, 207, ": A"},
+      {binary_print, "BPRNT[X#1[3]]", 1, 1, ": BPRNT"},
+      {variable_names, "SETVN 500[TOOL]", 1, 1, ": SETVN"},
+      {named_call, "M98 <SUB>", 1, 5, ": <"},
+      {named_call, "G65 <SUB> A1", 1, 5, ": <"},
+      {bracket_open, "DPRNT[A", 1, 6, ": ["},
+      {operand_missing, "DPRNT A", 1, 7, ": A"},
+      {statement_not_first, "G0 DPRNT[A]", 1, 4, ": DPRNT"},
+      {text_behind_statement, "DPRNT[A] X1", 1, 10, ": X1"},
+      {text_behind_statement, "POPEN X1", 1, 7, ": X1"},
+      {variable_unknown, "DPRNT[#200[53]]", 1, 7, ": #200"},
       {variable_unknown, "#5231=1", 1, 1, ": #5231"},
       {text_behind_statement, "#3006=1 #1=2", 1, 9, ": #1"},
       {tool_undefined, "#2007=1", 1, 1, ": #2007"},
@@ -279,7 +294,7 @@ TEST(Alarm, TextThatCannotBeReadIsOne) {
 }
 
 TEST(Alarm, EveryNumberOfTheTableHasATest) {
-  // A channel gives the first eight, the interpreter never does. The last three have tests of their own.
+  // A channel gives the first nine, the interpreter never does. The last three have tests of their own.
   std::set<AlarmNumber> tested{AlarmNumber::not_resumable,
                                AlarmNumber::tapping_spindle_missing,
                                AlarmNumber::tapping_spindle_synchronized,
@@ -288,6 +303,7 @@ TEST(Alarm, EveryNumberOfTheTableHasATest) {
                                AlarmNumber::axes_without_reference,
                                AlarmNumber::homing_axis_locked,
                                AlarmNumber::tap_removal_thread,
+                               AlarmNumber::print_refused,
                                AlarmNumber::text_unreadable,
                                AlarmNumber::homed_unknown,
                                AlarmNumber::surface_speed_limit};

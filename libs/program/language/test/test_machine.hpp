@@ -40,6 +40,8 @@ struct TestMachine : Environment {
   std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
   std::map<std::string, std::unique_ptr<TextSource>, std::less<>> programs;
   std::array<std::uint16_t, 8> cycle_m_codes{};
+  CodeCalls calls;
+  bool blanks = true;  // of DPRNT
   std::array<canonical::RotaryWay, axis_count> ways{};
   std::optional<MFunctions> functions;  // nothing: every M code may stand
   DwellPoint point = DwellPoint::refused;
@@ -163,6 +165,8 @@ struct TestMachine : Environment {
     return found == programs.end() ? nullptr : found->second.get();
   }
   std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes.at(index); }
+  CodeCalls code_calls() const override { return calls; }
+  bool prints_blanks() const override { return blanks; }
 
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override {
     const double a = -tip[A] * std::numbers::pi / 180;
@@ -253,9 +257,9 @@ struct SlowSource : TextSource {
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid",   "line",  "arc",  "dwell",  "T",    "S",
-                                          "M",       "frame", "end",  "skip",   "tap",  "table",
-                                          "message", "cycle", "home", "thread", "read", "order"};
+  static constexpr const char* kinds[] = {"rapid", "line",   "arc",  "dwell", "T",     "S",       "M",
+                                          "frame", "end",    "skip", "tap",   "table", "message", "cycle",
+                                          "home",  "thread", "read", "order", "print"};
   const auto number = [](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
@@ -330,6 +334,8 @@ inline std::string brief(const Command& command) {
       break;
     case CommandKind::spindle_order:
       text += " " + std::to_string(command.number) + " " + number(command.value);
+      break;
+    case CommandKind::print:
       break;
     case CommandKind::message:
     case CommandKind::cycle:
