@@ -219,13 +219,13 @@ def macros():
             "is written. A line has at most 200 bytes.", "",
             "A line is printed where the program passes it, with the axes at rest, once: not in the search for a start line, on the way back (retrace), nor "
             "again when a program is continued after an interruption or by another process. With cutter radius compensation it is alarm 1707. When the "
-            "line cannot be written (the disk is full, the file has 4 MB, the program service is away) the program is held with alarm 1522; cycle start "
+            "line cannot be written (the disk is full, the file has 4 MB, the program service is away) the program is held with alarm 1521; cycle start "
             "writes it again, and a reset ends the program. Files grow until somebody deletes them. After a power failure the last line may be incomplete. "
             "`BPRNT` (binary numbers) is alarm 1513.", "",
             "## Calls", "",
             "`M98 P_ H_ L_` calls a subprogram, which shares the local variables of its caller. It begins at the block with the N of H (or Q), without it at "
-            "its top; beside G43 H is the tool length. L0 calls nothing. `M198` is the same: there is one store of programs. A program has no name but its number: "
-            "`M98 <NAME>` is alarm 1521. Without L, and when no program has that number, the "
+            "its top; beside G43 H is the tool length. L0 calls nothing. `M198` is the same: there is one store of programs. "
+            "Without L, and when no program has that number, the "
             "digits before the last four count the calls, as in Fanuc's old form: `M98 P60020` calls O0020 six times. `G65 P_ L_` and `G66 P_ L_` "
             "call a macro. `G1000` .. `G1999` and the M codes of parameters 010170 to 010177 call a cycle of `USERDEF.CYC`. Both have local variables "
             "of their own, which are set to the arguments at the start of each repetition. `M99` returns, `M99 P_` to the block of the caller "

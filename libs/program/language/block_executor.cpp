@@ -310,9 +310,10 @@ Fault BlockExecutor::set_call(Flow& flow) {
   if (const Fault fault = set_label(flow)) return fault;
   if (!words.has('L')) return {};
   flow.counted = true;
-  if (const Fault fault = words.whole_number('L', 0, highest_repetition, flow.repetitions)) return fault;
-  if (flow.repetitions == 0) flow.kind = Flow::Kind::next;
-  return {};
+  const Fault fault = words.whole_number('L', 0, highest_repetition, flow.repetitions);
+  // As in LinuxCNC a call no times is none.
+  if (!fault && flow.repetitions == 0) flow.kind = Flow::Kind::next;
+  return fault;
 }
 
 // H is the tool length where G43 has taken it, as Q may be a word of a cycle.

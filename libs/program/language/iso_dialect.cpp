@@ -42,14 +42,6 @@ class BlockReader {
   /// Nothing but N and a block skip was read: here a statement may begin.
   bool at_start() const { return block_.head == Head::none && !word_is_read_; }
 
-  /// It has a code whose program is named by P.
-  bool calls_program() const {
-    bool calls = calls_macro_;
-    for (std::size_t i = 0; i < block_.m_count; ++i)
-      calls = calls || block_.m[i].value == 98 || block_.m[i].value == 198;
-    return calls;
-  }
-
   Fault item(bool& done) {
     const char c = scanner_.peek();
     const char upper = letter(c);
@@ -74,7 +66,6 @@ class BlockReader {
       return {};
     }
     if (c == ',') return comma_word(at);
-    if (c == '<' && calls_program()) return {AlarmNumber::named_call, at};
     if (c == '%' || c == '/') return {AlarmNumber::misplaced_head, at};
     const bool broken = text::valid_utf8_prefix(line_.substr(at, 4)) == 0;
     return {broken ? AlarmNumber::not_utf8 : AlarmNumber::unknown_character, at};

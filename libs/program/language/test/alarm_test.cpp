@@ -222,8 +222,6 @@ std::vector<Wrong> wrong_programs() {
       {print_too_long, "DPRNT[" + std::string(201, 'A') + "]", 1, 207, ": A"},
       {binary_print, "BPRNT[X#1[3]]", 1, 1, ": BPRNT"},
       {variable_names, "SETVN 500[TOOL]", 1, 1, ": SETVN"},
-      {named_call, "M98 <SUB>", 1, 5, ": <"},
-      {named_call, "G65 <SUB> A1", 1, 5, ": <"},
       {bracket_open, "DPRNT[A", 1, 6, ": ["},
       {operand_missing, "DPRNT A", 1, 7, ": A"},
       {statement_not_first, "G0 DPRNT[A]", 1, 4, ": DPRNT"},
