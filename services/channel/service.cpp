@@ -25,6 +25,7 @@ ChannelService::ChannelService(service::Node& node)
       core_(static_cast<std::uint16_t>(node.options().channel), node.options().virtual_time),
       requests_(node.bus(), topics::channel_request, topics::channel_reply),
       program_client_(node.bus(), topics::program_request, topics::program_reply),
+      print_client_(node.bus(), topics::program_request, topics::program_reply),
       table_client_(node.bus(), topics::parameter_request, topics::parameter_reply),
       tools_(node.bus().reader(topics::tool_table)),
       offsets_(node.bus().reader(topics::work_offsets)),
@@ -85,6 +86,11 @@ void ChannelService::watch_text() {
 void ChannelService::change_tables() {
   if (auto reply = table_client_.poll()) core_.on_table_changed(reply->accepted ? "" : reply->reason);
   if (auto request = core_.take_table_request()) table_client_.send(std::move(*request));
+}
+
+void ChannelService::print_lines() {
+  if (const auto reply = print_client_.poll()) core_.on_printed(*reply);
+  if (auto request = core_.take_print_request()) print_client_.send(std::move(*request));
 }
 
 void ChannelService::watch_cycle() {
@@ -328,6 +334,7 @@ void ChannelService::pump() {
   if (const auto auxiliary = core_.take_auxiliary()) auxiliary_writer_.write(*auxiliary);
   if (const auto cycle = core_.take_cycle_request()) cycle_writer_.write(*cycle);
   change_tables();
+  print_lines();
   save_variables();
   if (core_.recovered()) keep_record();
   watch_text();
