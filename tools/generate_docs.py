@@ -187,10 +187,13 @@ def macros():
            "`#[expression]` names a variable by a computed number.", "",
            "Of HNC-8's own system variables from #1000 on, the available manuals name one, #1319 (the angle of G115, which does not exist here either). "
            "The numbers of the others are not known. Therefore none exists: a program that uses one stops with that alarm and does not continue with "
-           "wrong values. Their functions exist under Fanuc's numbers: time from #3001, modal state from #4001, positions from #5001, tools from "
+           "wrong values. Their functions exist under Fanuc's numbers: signals of the PLC from #1000, time from #3001, modal state from #4001, positions from #5001, tools from "
            "#2001, offsets from #5221 and #7001. Variables have no names: SETVN is alarm 1520.", "",
            "Fanuc controls with few tools have work offsets at #2501 (X of G54) to #2506 (G59), #2601 .. #2606 (Y) and #2701 .. #2706 (Z). Here these are "
-           "tools, unless parameter 04c722 is 1.", ""]
+           "tools, unless parameter 04c722 is 1.", "",
+           "#1000 to #1132 are signals between a program and the PLC of the machine ([plc.md](plc.md#signals-of-programs)). Reading one brings the axes to "
+           "rest and takes 10 ms, so a loop that waits for one lets time pass. Where the programs of the PLC do not use `macro_input` or `macro_output` of the "
+           "channel, it is alarm 132. A check of a program, which has no PLC, reads 0 behind a move and then 1 and 0 in turn.", ""]
     out += table(("variables", "may be written", "meaning"), [(f"#{a}" + (f" .. #{b}" if b != a else ""), "yes" if w else "no", text) for a, b, w, text in v])
     out += ["", "## Expressions", "",
             "Precedence, highest first: functions and signs; `*` `/` `MOD` `AND`; `+` `-` `OR` `XOR`; the comparisons `EQ NE GT GE LT LE` or "
@@ -219,8 +222,8 @@ def macros():
             "is written. A line has at most 200 bytes.", "",
             "A line is printed where the program passes it, with the axes at rest, once: not in the search for a start line, on the way back (retrace), nor "
             "again when a program is continued after an interruption or by another process. With cutter radius compensation it is alarm 1707. When the "
-            "line cannot be written (the disk is full, the file has 4 MB, the program service is away) the program is held with alarm 1521; cycle start "
-            "writes it again, and a reset ends the program. Files grow until somebody deletes them. After a power failure the last line may be incomplete. "
+            "line cannot be written (the disk is full, the file has 4 MB) the program is held with alarm 1521; cycle start writes it again, and a reset ends "
+            "the program. While the program service is away the program waits. Files grow until somebody deletes them. After a power failure the last line may be incomplete. "
             "`BPRNT` (binary numbers) is alarm 1513.", "",
             "## Calls", "",
             "`M98 P_ H_ L_` calls a subprogram, which shares the local variables of its caller. It begins at the block with the N of H (or Q), without it at "

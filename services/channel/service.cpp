@@ -31,6 +31,7 @@ ChannelService::ChannelService(service::Node& node)
       offsets_(node.bus().reader(topics::work_offsets)),
       programs_(node.bus().reader(topics::program_list)),
       done_(node.bus().reader(topics::auxiliary_done)),
+      signals_(node.bus().reader(topics::macro_signal)),
       cycle_replies_(node.bus().reader(topics::cycle_reply)),
       outputs_(node.bus().reader(topics::plc_outputs)),
       alarm_reader_(node.bus().reader(topics::alarm)),
@@ -262,6 +263,9 @@ void ChannelService::drain() {
   idl::plc::AuxiliaryDone done;
   while (done_.take(done))
     if (done.channel == node_.options().channel) core_.on_auxiliary_done(done);
+  idl::plc::MacroSignal signal;
+  while (signals_.take(signal))
+    if (signal.channel == node_.options().channel) core_.on_macro_signal(signal);
   CycleReply cycle;
   while (cycle_replies_.take(cycle)) core_.on_cycle_reply(cycle);
   idl::service::Cluster cluster;

@@ -67,6 +67,7 @@ class ChannelService : public service::Service {
   bus::Reader<idl::parameters::WorkOffsets> offsets_;
   bus::Reader<idl::program::ProgramList> programs_;
   bus::Reader<idl::plc::AuxiliaryDone> done_;
+  bus::Reader<idl::plc::MacroSignal> signals_;
   bus::Reader<CycleReply> cycle_replies_;
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::service::Alarm> alarm_reader_;

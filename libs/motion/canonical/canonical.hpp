@@ -136,10 +136,12 @@ enum class CommandKind : std::uint8_t {
             ///< start in mm per revolution of the axis that goes farthest, the first of equal ones. Threads
             ///< with no other command and no exact stop between them are one thread; number = 1: begins
             ///< another one
-  read,     ///< a value of a spindle (canonical/spindle_value.hpp) behind dwell_seconds at rest, number as
-            ///< read_number(); nothing further is read before Interpreter::give_value()
-  spindle_order,  ///< what the PLC is to do with a spindle: number as order_master and others, value
-  print,  ///< a line for a file (DPRNT), with the axes at rest; its text is Interpreter::print_text()
+  read,     ///< a value of a spindle (canonical/spindle_value.hpp) or a signal of the PLC (macro_signal.hpp)
+            ///< behind dwell_seconds at rest, number as read_number() or the variable's; nothing further is
+            ///< read before Interpreter::give_value()
+  spindle_order,  ///< what the PLC is to do: with a spindle, number as order_master and others; or a signal
+                  ///< that it is to have, number as the variable's; value
+  print,          ///< a line for a file (DPRNT), with the axes at rest; its text is Interpreter::print_text()
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "canonical/macro_signal.hpp"
 #include "language/arithmetic.hpp"
 #include "language/decimal.hpp"
 
@@ -73,13 +74,13 @@ void ControlVariables::give_value(double value) {
 }
 
 // In the order in which the line reads them: it is the same each time.
-AlarmNumber ControlVariables::spindle_value(SpindleValue value, std::uint32_t spindle, double& result) const {
+AlarmNumber ControlVariables::live_value(std::uint32_t number, double& result) const {
   if (values_read_ < values_) {
     result = value_[values_read_++];
     return AlarmNumber::none;
   }
   if (values_ == value_.size()) return AlarmNumber::too_many_codes;
-  wanted_ = canonical::read_number(value, spindle);
+  wanted_ = number;
   return value_pending;
 }
 
@@ -254,6 +255,10 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
     case VariableKind::parts:
       result = parts_;
       break;
+    case VariableKind::macro_signal:
+      if (const AlarmNumber alarm = live_value(range.first + index, result); alarm != AlarmNumber::none)
+        return alarm;
+      break;
     case VariableKind::homed:
       if (const AlarmNumber alarm = homed(index, result); alarm != AlarmNumber::none) return alarm;
       break;
@@ -315,6 +320,8 @@ AlarmNumber ControlVariables::write(const VariableRange& range, std::uint32_t in
       return order(range, index, nearly_whole(value.number));
     case VariableKind::suppression:
       return suppress(range.first, nearly_whole(value.number));
+    case VariableKind::macro_signal:
+      return set_signal(range.first + index, nearly_whole(value.number));
     default:
       return ask(range, index, value.number);
   }
@@ -363,13 +370,24 @@ AlarmNumber ControlVariables::suppress(std::uint32_t number, double value) {
   return AlarmNumber::none;
 }
 
+// A word may be written with its highest signal as the sign, as Fanuc controls count it.
+AlarmNumber ControlVariables::set_signal(std::uint32_t number, double value) {
+  const bool word = canonical::is_macro_word(number);
+  const double lowest = word ? -32768 : 0, highest = word ? 65535 : 1;
+  if (!(value >= lowest && value <= highest) || value != std::floor(value))
+    return AlarmNumber::variable_value;
+  if (request_count_ == requests_.size()) return AlarmNumber::too_many_codes;
+  requests_[request_count_++] = {VariableKind::macro_signal, number, value};
+  return AlarmNumber::none;
+}
+
 Fault ControlVariables::carry_out(std::uint32_t program, std::uint32_t line, CommandQueue& out) {
   for (std::size_t i = 0; i < request_count_; ++i) {
     const Request& request = requests_[i];
     Fault fault;
     if (request.kind == VariableKind::external) {
       fault = carry_out_external(request, program, line, out);
-    } else if (is_spindle_order(request.kind)) {
+    } else if (is_spindle_order(request.kind) || request.kind == VariableKind::macro_signal) {
       fault = executor_.order_spindle(request.index, request.value, program, line, out);
     } else if (request.kind == VariableKind::message) {
       fault = executor_.message(static_cast<std::uint32_t>(request.value), program, line, out);

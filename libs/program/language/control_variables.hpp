@@ -68,7 +68,7 @@ class ControlVariables final : public SystemVariables {
   Fault write_external(std::uint32_t number, double value) override;
 
   /// Carries out what writing variables asked for since the last time: a message, a change of a table, an
-  /// order for a spindle.
+  /// order for a spindle, a signal to the PLC.
   Fault carry_out(std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
  private:
@@ -81,10 +81,15 @@ class ControlVariables final : public SystemVariables {
   AlarmNumber ask(const VariableRange& range, std::uint32_t index, double value);
   AlarmNumber order(const VariableRange& range, std::uint32_t index, double value);
   AlarmNumber suppress(std::uint32_t number, double value);
+  AlarmNumber set_signal(std::uint32_t number, double value);
   /// Of #2501 .. #2706 where they are work offsets and not tools: the index of the same one among #5221 ..
   std::optional<std::uint32_t> offset_of_axis(const VariableRange& range, std::uint32_t index) const;
   static constexpr double largest_added_angle = 360;  // deg, of EC
-  AlarmNumber spindle_value(canonical::SpindleValue value, std::uint32_t spindle, double& result) const;
+  /// What the machine says at rest; `number` as Command::number of kind read.
+  AlarmNumber live_value(std::uint32_t number, double& result) const;
+  AlarmNumber spindle_value(canonical::SpindleValue value, std::uint32_t spindle, double& result) const {
+    return live_value(canonical::read_number(value, spindle), result);
+  }
   AlarmNumber live_parameter(std::uint32_t number, double& value) const;
   Fault check_master(std::uint32_t slave, double address) const;
 

@@ -51,6 +51,7 @@ enum class VariableKind : std::uint8_t {
   suppression,
   mirror,
   parts,
+  macro_signal,
   setting,  ///< refused, as the next two
   required_parts,
   servo_deviation,
@@ -70,6 +71,12 @@ inline constexpr std::array variable_ranges = {
                   "local to a macro or cycle; M98 keeps those of its caller"},
     VariableRange{50, 199, VariableKind::common, true, "common to all programs, forgotten at power-off"},
     VariableRange{500, 999, VariableKind::kept, true, "common to all programs, kept"},
+    VariableRange{1000, 1015, VariableKind::macro_signal, false,
+                  "signals 0 to 15 of the PLC to programs, 0 or 1; read at rest"},
+    VariableRange{1032, 1032, VariableKind::macro_signal, false, "#1000 .. #1015 as one word, 0 .. 65535"},
+    VariableRange{1100, 1115, VariableKind::macro_signal, true,
+                  "signals 0 to 15 of programs to the PLC, 0 or 1; read at rest; writing them too"},
+    VariableRange{1132, 1132, VariableKind::macro_signal, true, "#1100 .. #1115 as one word, 0 .. 65535"},
     VariableRange{
         1321, 1329, VariableKind::homed, false,
         "1 = the axis had its reference when the program began, or the program has homed it: X Y Z A B C "

@@ -108,6 +108,8 @@ class ChannelCore {
   void recover();
   bool recovered() const { return recovered_; }
   void on_auxiliary_done(const idl::plc::AuxiliaryDone& done);
+  /// The answer to an AuxiliaryRequest that reads a signal.
+  void on_macro_signal(const idl::plc::MacroSignal& signal);
   /// The answer to the request of take_table_request(); `reason` is empty when the table was changed.
   void on_table_changed(const std::string& reason);
   /// The answer to the request of take_print_request().

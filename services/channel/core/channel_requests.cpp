@@ -190,12 +190,12 @@ void ChannelCore::begin_auxiliary(program_execution::AuxiliaryFunction function)
 }
 
 void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
-  const auto function = handshake_.function();
+  if (read_.active() && !done.failed) return;  // only on_macro_signal() has the value
+  const auto refusal = handshake_.refusal();
   const auto outcome = handshake_.finish(done);
   if (outcome == AuxiliaryHandshake::Outcome::not_open) return;
   if (outcome == AuxiliaryHandshake::Outcome::failed) {
-    event(alarm::auxiliary_refused, place_of(flow().pending()) + ": the PLC did not carry out " + function +
-                                        ". Check the machine, then reset");
+    event(alarm::auxiliary_refused, place_of(flow().pending()) + ": " + refusal);
     stop_activity();
     return;
   }
@@ -218,6 +218,15 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   }
   const bool stop = auxiliary && (command.number == program_stop || command.number == optional_stop);
   states_.end_wait(stop || interlock_.holds());
+}
+
+void ChannelCore::on_macro_signal(const idl::plc::MacroSignal& signal) {
+  if (!read_.active() || !read_.value()) return;
+  if (handshake_.finish({signal.channel, signal.number, false}) == AuxiliaryHandshake::Outcome::not_open)
+    return;
+  read_.end();
+  flow().value_read(signal.value);
+  states_.end_wait(interlock_.holds());
 }
 
 // What was only tested, and a program of a command, is no part.

@@ -122,5 +122,27 @@ TEST(FanucVariables, ParametersOfTheMachineAreReadByItsNumbers) {
     EXPECT_EQ(run(machine, wrong).alarm.number, AlarmNumber::parameter_unavailable) << wrong;
 }
 
+TEST(FanucVariables, SignalsOfThePlcAreReadAtRestAndSetInTheirOrder) {
+  TestMachine machine;
+  EXPECT_THAT(stream(run(machine, "G0 X1\n#1101=1\n#500=#1003\n#1132=-1\nM30\n")),
+              ElementsAre("rapid X1", "order 1101 1", "read 1003", "order 1132 -1", "end 30"));
+  Interpreter interpreter(machine);
+  StringSource source("IF [#1003 EQ 1] GOTO 7\nG0 X9\nN7 G0 X#1032\nM30\n");
+  interpreter.start(source, {}, {});
+  std::vector<double> values = {40, 1};  // the last one is given first
+  std::vector<double> positions;
+  Command command;
+  for (Step step = Step::working; step != Step::end;) {
+    step = interpreter.next(command);
+    ASSERT_NE(step, Step::alarm) << interpreter.alarm().text.data();
+    if (step == Step::command && command.kind == CommandKind::rapid) positions.push_back(command.target[X]);
+    if (step != Step::value) continue;
+    ASSERT_FALSE(values.empty());
+    interpreter.give_value(values.back());
+    values.pop_back();
+  }
+  EXPECT_THAT(positions, ElementsAre(40));
+}
+
 }  // namespace
 }  // namespace trunnion::language::test::fanuc_variables
