@@ -187,7 +187,7 @@ def macros():
            "`#[expression]` names a variable by a computed number.", "",
            "Of HNC-8's own system variables from #1000 on, the available manuals name one, #1319 (the angle of G115, which does not exist here either). "
            "The numbers of the others are not known. Therefore none exists: a program that uses one stops with that alarm and does not continue with "
-           "wrong values. Their functions exist under Fanuc's numbers: signals of the PLC from #1000, time from #3001, modal state from #4001, positions from #5001, tools from "
+           "wrong values; at #1000 to #1015, #1100 to #1115, #1032 and #1132, which are Fanuc's signals here, with alarm 132 where the PLC has none. Their functions exist under Fanuc's numbers: signals of the PLC from #1000, time from #3001, modal state from #4001, positions from #5001, tools from "
            "#2001, offsets from #5221 and #7001. Variables have no names: SETVN is alarm 1520.", "",
            "Fanuc controls with few tools have work offsets at #2501 (X of G54) to #2506 (G59), #2601 .. #2606 (Y) and #2701 .. #2706 (Z). Here these are "
            "tools, unless parameter 04c722 is 1.", "",
