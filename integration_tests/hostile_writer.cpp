@@ -107,6 +107,7 @@ void for_every_topic(Visit&& visit) {
   visit(topics::channel_reply);
   visit(topics::auxiliary_request);
   visit(topics::auxiliary_done);
+  visit(topics::macro_signal);
   visit(topics::cycle_request);
   visit(topics::cycle_reply);
   visit(topics::plc_outputs);

@@ -205,8 +205,13 @@ def macros():
            "`#[expression]` names a variable by a computed number.", "",
            "Of HNC-8's own system variables from #1000 on, the available manuals name one, #1319 (the angle of G115, which does not exist here either). "
            "The numbers of the others are not known. Therefore none exists: a program that uses one stops with that alarm and does not continue with "
-           "wrong values. Their functions exist under Fanuc's numbers: time from #3001, modal state from #4001, positions from #5001, tools from "
-           "#2001, offsets from #5221 and #7001.", ""]
+           "wrong values; at #1000 to #1015, #1100 to #1115, #1032 and #1132, which are Fanuc's signals here, with alarm 132 where the PLC has none. Their functions exist under Fanuc's numbers: signals of the PLC from #1000, time from #3001, modal state from #4001, positions from #5001, tools from "
+           "#2001, offsets from #5221 and #7001. Variables have no names: SETVN is alarm 1520.", "",
+           "Fanuc controls with few tools have work offsets at #2501 (X of G54) to #2506 (G59), #2601 .. #2606 (Y) and #2701 .. #2706 (Z). Here these are "
+           "tools, unless parameter 04c722 is 1.", "",
+           "#1000 to #1132 are signals between a program and the PLC of the machine ([plc.md](plc.md#signals-of-programs)). Reading one brings the axes to "
+           "rest and takes 10 ms, so a loop that waits for one lets time pass. Where the programs of the PLC do not use `macro_input` or `macro_output` of the "
+           "channel, it is alarm 132. A check of a program, which has no PLC, reads 0 behind a move and then 1 and 0 in turn.", ""]
     out += table(("variables", "may be written", "meaning"), [(f"#{a}" + (f" .. #{b}" if b != a else ""), "yes" if w else "no", text) for a, b, w, text in v])
     out += ["", "## Expressions", "",
             "Precedence, highest first: functions and signs; `*` `/` `MOD` `AND`; `+` `-` `OR` `XOR`; the comparisons `EQ NE GT GE LT LE` or "
@@ -222,15 +227,36 @@ def macros():
             "| `IF condition GOTO n`, `IF condition THEN ...` | a jump, an assignment or words, if the condition is true |",
             "| `WHILE condition` .. `ENDW` | a loop |",
             "| `WHILE condition DO n` .. `END n`, `DO n` .. `END n` | a loop with a number; without `WHILE` until a jump leaves it |",
-            "| `GOTO n` | to the block with that N: searched forward, then from the start of the program |", "",
+            "| `GOTO n` | to the block with that N: searched forward, then from the start of the program |",
+            "| `DPRNT[X#1[53] text]` | a [line for a file](#printing) |",
+            "| `POPEN`, `PCLOS` | without effect: a file need not be opened |", "",
             "`IF`, `WHILE` and `DO` nest 16 deep in a program. A jump may leave them but not enter one. `WH`, `EN` and `TH` are `WHILE`, `END` and `THEN`. "
             "`GO` is alarm 1011: with the letter O, a G0 that is written wrong would be a jump.", "",
+            "## Printing", "",
+            "`DPRNT[X#1[53]*D#[100+1][24]]` adds a line to the file `DPRNT-PROGRAM.txt` of the stored programs, that of MDI lines to `DPRNT-MDI.txt`; of "
+            "channel 1 and higher the name has `-1` and so on before `.txt`. `trunnion program list`, `get` and `delete`, the page and `/api/programs` "
+            "treat it as a program. `#1[53]` is the value of a variable with 5 places before the point and 3 behind it, rounded; 9 places together at "
+            "most. There is no point without places behind it, and a number with more digits before it grows. With parameter 04c721 = 1 the sign has a "
+            "place, and blanks stand for a sign or digits that are not there; with 0 they are left out. `*` is a blank, every other character is printed as it "
+            "is written. A line has at most 200 bytes.", "",
+            "A line is printed where the program passes it, with the axes at rest, once: not in the search for a start line, on the way back (retrace), nor "
+            "again when a program is continued after an interruption or by another process. With cutter radius compensation it is alarm 1707. When the "
+            "line cannot be written (the disk is full, the file has 4 MB) the program is held with alarm 1521; cycle start writes it again, and a reset ends "
+            "the program. While the program service is away the program waits. Files grow until somebody deletes them. After a power failure the last line may be incomplete. "
+            "`BPRNT` (binary numbers) is alarm 1513.", "",
             "## Calls", "",
-            "`M98 P_ L_` calls a subprogram, which shares the local variables of its caller; L0 calls nothing, as in LinuxCNC. Without L, and when no program has that number, the "
+            "`M98 P_ H_ L_` calls a subprogram, which shares the local variables of its caller. It begins at the block with the N of H (or Q), without it at "
+            "its top; beside G43 H is the tool length. L0 calls nothing. `M198` is the same: there is one store of programs. "
+            "Without L, and when no program has that number, the "
             "digits before the last four count the calls, as in Fanuc's old form: `M98 P60020` calls O0020 six times. `G65 P_ L_` and `G66 P_ L_` "
             "call a macro. `G1000` .. `G1999` and the M codes of parameters 010170 to 010177 call a cycle of `USERDEF.CYC`. Both have local variables "
             "of their own, which are set to the arguments at the start of each repetition. `M99` returns, `M99 P_` to the block of the caller "
             "with that N; in the main program `M99 P_` jumps to that block, and `M99` starts the program again. Calls nest 8 deep.", "",
+            "Codes call programs where a parameter says so: ten G codes (04c690 .. 04c699) the macros O9010 to O9019, ten M codes (04c700 .. 04c709) the macros "
+            "O9020 to O9029, nine M codes (04c710 .. 04c718) the subprograms O9001 to O9009, T (04c719) O9000 with its number in #149, and S (04c720) O9029 "
+            "with its number in #147. Such a code is no longer what the table of codes says. A macro has the letters of its block as arguments, P as #16 and L as "
+            "the repetitions, and its code is the only one of the block; a G code may have an M code as #13. What is beside the code of a subprogram is carried "
+            "out before it. In the called program, and in what it calls, all these codes are the ordinary ones. B is an axis here and calls nothing.", "",
             "`CYCLE1234(1, \"text\", , 4)` calls O1234 as a macro; its arguments are #1 #2 #3 #4, and vacant where one is left out or a text. The "
             "control has O9960 for `CYCLE9960` ([calibration.md](calibration.md#in-a-program)), O9801 "
             "([calibration-programs.md](calibration-programs.md)), O9810 to O9819 ([measuring-cycles.md](measuring-cycles.md)) and O90150 for "

@@ -50,11 +50,13 @@ void ChannelService::read_record() {
   }
 }
 
-// The line is written now and then, the beginning and the end of a program and of a tap at once.
+// The line is written now and then, the beginning and the end of a program and of a tap, and what it has
+// printed, at once.
 void ChannelService::keep_record() {
   const double now = service::monotonic_seconds();
   if (core_.program_under_way() == (kept_.line != 0) && core_.parts() == kept_.parts &&
-      core_.tool() == kept_.tool && core_.tap() == kept_.tap && now - kept_at_ < record_seconds)
+      core_.tool() == kept_.tool && core_.tap() == kept_.tap && core_.printed() == kept_.printed &&
+      now - kept_at_ < record_seconds)
     return;
   const auto program = core_.running_program();
   if (program == kept_) return;

@@ -25,11 +25,13 @@ ChannelService::ChannelService(service::Node& node)
       core_(static_cast<std::uint16_t>(node.options().channel), node.options().virtual_time),
       requests_(node.bus(), topics::channel_request, topics::channel_reply),
       program_client_(node.bus(), topics::program_request, topics::program_reply),
+      print_client_(node.bus(), topics::program_request, topics::program_reply),
       table_client_(node.bus(), topics::parameter_request, topics::parameter_reply),
       tools_(node.bus().reader(topics::tool_table)),
       offsets_(node.bus().reader(topics::work_offsets)),
       programs_(node.bus().reader(topics::program_list)),
       done_(node.bus().reader(topics::auxiliary_done)),
+      signals_(node.bus().reader(topics::macro_signal)),
       cycle_replies_(node.bus().reader(topics::cycle_reply)),
       outputs_(node.bus().reader(topics::plc_outputs)),
       alarm_reader_(node.bus().reader(topics::alarm)),
@@ -85,6 +87,11 @@ void ChannelService::watch_text() {
 void ChannelService::change_tables() {
   if (auto reply = table_client_.poll()) core_.on_table_changed(reply->accepted ? "" : reply->reason);
   if (auto request = core_.take_table_request()) table_client_.send(std::move(*request));
+}
+
+void ChannelService::print_lines() {
+  if (const auto reply = print_client_.poll()) core_.on_printed(*reply);
+  if (auto request = core_.take_print_request()) print_client_.send(std::move(*request));
 }
 
 void ChannelService::watch_cycle() {
@@ -256,6 +263,9 @@ void ChannelService::drain() {
   idl::plc::AuxiliaryDone done;
   while (done_.take(done))
     if (done.channel == node_.options().channel) core_.on_auxiliary_done(done);
+  idl::plc::MacroSignal signal;
+  while (signals_.take(signal))
+    if (signal.channel == node_.options().channel) core_.on_macro_signal(signal);
   CycleReply cycle;
   while (cycle_replies_.take(cycle)) core_.on_cycle_reply(cycle);
   idl::service::Cluster cluster;
@@ -328,6 +338,7 @@ void ChannelService::pump() {
   if (const auto auxiliary = core_.take_auxiliary()) auxiliary_writer_.write(*auxiliary);
   if (const auto cycle = core_.take_cycle_request()) cycle_writer_.write(*cycle);
   change_tables();
+  print_lines();
   save_variables();
   if (core_.recovered()) keep_record();
   watch_text();

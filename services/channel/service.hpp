@@ -33,6 +33,7 @@ class ChannelService : public service::Service {
   void answer_requests();
   void fetch_text();
   void change_tables();
+  void print_lines();
   void read_bodies();
   void read_variables();
   void save_variables();
@@ -59,12 +60,14 @@ class ChannelService : public service::Service {
   ChannelCore core_;
   UnusableParameters unusable_;
   service::RequestServer<idl::channel::ChannelRequest, idl::channel::ChannelReply> requests_;
-  service::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_client_;
+  service::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_client_,
+      print_client_;
   service::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> table_client_;
   bus::Reader<idl::parameters::ToolTable> tools_;
   bus::Reader<idl::parameters::WorkOffsets> offsets_;
   bus::Reader<idl::program::ProgramList> programs_;
   bus::Reader<idl::plc::AuxiliaryDone> done_;
+  bus::Reader<idl::plc::MacroSignal> signals_;
   bus::Reader<CycleReply> cycle_replies_;
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::service::Alarm> alarm_reader_;

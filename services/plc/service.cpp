@@ -59,6 +59,7 @@ PlcService::PlcService(service::Node& node)
       alarms_(node.bus().reader(topics::alarm)),
       outputs_(node.bus().writer(topics::plc_outputs)),
       done_(node.bus().writer(topics::auxiliary_done)),
+      signals_(node.bus().writer(topics::macro_signal)),
       image_(node.bus().writer(topics::plc_image)),
       log_(node.bus().writer(topics::plc_input_log)),
       resets_(node.bus().writer(topics::alarm_reset)),
@@ -295,6 +296,13 @@ void PlcService::pump() {
   publish(now);
 }
 
+void PlcService::answer(const idl::plc::AuxiliaryDone& done) {
+  if (const auto signal = core_.signal_read(done))
+    signals_.write(*signal);
+  else
+    done_.write(done);
+}
+
 void PlcService::publish(double now) {
   auto outputs = core_.outputs();
   const auto ahead = static_cast<std::uint64_t>(longest_ahead / period_);
@@ -314,7 +322,7 @@ void PlcService::publish(double now) {
     outputs_written_ = now;
   }
   if (first_)
-    for (const auto& done : core_.all_done()) done_.write(done);
+    for (const auto& done : core_.all_done()) answer(done);
   const auto finished = core_.take_done();
   end_round(finished);
   online_.compare(finished);
@@ -327,7 +335,7 @@ void PlcService::publish(double now) {
               "reset the alarms",
           core_.memory().handshakes[done.channel].cycle);
     node_.alarms().release(alarm::auxiliary_refused, done.channel);
-    done_.write(done);
+    answer(done);
   }
   reset_alarms();
   first_ = false;

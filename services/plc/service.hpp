@@ -51,6 +51,7 @@ class PlcService : public service::Service {
   void take_inputs();
   std::uint64_t tick_now(double now) const;
   void publish(double now);
+  void answer(const idl::plc::AuxiliaryDone& done);
   void applied(idl::stream::Input input, std::int64_t source_time);
   void publish_inputs(double now);
   void reset_alarms();
@@ -71,6 +72,7 @@ class PlcService : public service::Service {
   bus::Reader<idl::service::Alarm> alarms_;
   bus::Writer<idl::plc::Outputs> outputs_;
   bus::Writer<idl::plc::AuxiliaryDone> done_;
+  bus::Writer<idl::plc::MacroSignal> signals_;
   bus::Writer<idl::plc::Image> image_;
   bus::Writer<idl::stream::InputLog> log_;
   bus::Writer<idl::service::AlarmReset> resets_;

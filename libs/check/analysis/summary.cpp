@@ -21,6 +21,7 @@ void Summary::add(const language::Command& command) {
   const bool by_p = solution == 1 || solution == 2;
   if (command.kind == CommandKind::transformation && by_p && plane_line_ == 0)
     plane_line_ = command.line, plane_solution_ = solution;
+  if (command.kind == CommandKind::print) ++printed_;
   if (command.kind == CommandKind::dwell) dwell_seconds_ += command.dwell_seconds;
 }
 
@@ -112,6 +113,7 @@ void Summary::print(std::ostream& out, std::uint64_t blocks, std::string_view wa
     out << "warning  line " << plane_line_ << ": P" << plane_solution_
         << " of a tilted plane chooses the solution of the rotary axes; programs for Fanuc state the kind of "
            "the angles with P of G68.2: parameter 04c989 = 1\n";
+  if (printed_ > 0) out << fmt::format("prints   {} lines of DPRNT\n", printed_);
   out << warnings << "tools   ";
   for (const std::uint32_t tool : tools_) out << " T" << tool;
   out << (tools_.empty() ? " none\n" : "\n");

@@ -43,6 +43,7 @@ class Summary {
   MixedMoves mixed_;
   std::uint32_t plane_line_ = 0, plane_solution_ = 0;  ///< of the first tilted plane with P1 or P2
   std::set<std::uint32_t> tools_;
+  std::uint64_t printed_ = 0;  ///< lines of DPRNT
   bool moved_ = false;
   language::AxisValues lowest_{}, highest_{};
 };

@@ -40,6 +40,13 @@ struct Tilt {
   }
 };
 
+/// Bits of ModalState::suppressed: what a program keeps from acting on its blocks (#3003, #3004).
+inline constexpr std::uint8_t no_single_block = 1;
+inline constexpr std::uint8_t no_feed_hold = 2;  ///< of the operator; it acts behind the blocks
+inline constexpr std::uint8_t no_override = 4;   ///< of the feed
+inline constexpr std::uint8_t no_exact_stop = 8;
+inline constexpr unsigned path_suppression = 1;  ///< the last three are #3004, so many bits to the left
+
 /// The modal state a command was made in: what the HMI shows, and what a restart at this command restores.
 struct ModalState {
   std::uint8_t motion = 0;  ///< 0, 1, 2, 3 (G0..G3), 33, 34 (G33 and G32, G34) or 62 (G6.2)
@@ -75,13 +82,15 @@ struct ModalState {
   double path_tolerance = 0;  ///< P of G64, mm; 0 = the channel's own
   Tilt tilt{};                ///< words are in this plane; targets of commands never are
   std::uint32_t frame = 0;    ///< names the frame of the words: Interpreter::frame_of()
+  /// Of no_single_block and those behind it.
+  std::uint8_t suppressed = 0;
   bool operator==(const ModalState&) const = default;
 
   /// G43.4 or G43.5: the tool tip stays on the path while rotary axes move.
   bool tip_control() const { return transformation == Transformation::rtcp && !plane_only; }
 
   /// Every field that a channel keeps from one line or process to the next. No field, an interpreter names
-  /// frames of its own: frame.
+  /// frames of its own: frame. No field, another process suppresses nothing: suppressed.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("motion", self.motion), visit("plane", self.plane), visit("absolute", self.absolute);
@@ -130,9 +139,12 @@ enum class CommandKind : std::uint8_t {
             ///< start in mm per revolution of the axis that goes farthest, the first of equal ones. Threads
             ///< with no other command and no exact stop between them are one thread; number = 1: begins
             ///< another one
-  read,     ///< a value of a spindle (canonical/spindle_value.hpp) behind dwell_seconds at rest, number as
-            ///< read_number(); nothing further is read before Interpreter::give_value()
-  spindle_order,  ///< what the PLC is to do with a spindle: number as order_master and others, value
+  read,     ///< a value of a spindle (canonical/spindle_value.hpp) or a signal of the PLC (macro_signal.hpp)
+            ///< behind dwell_seconds at rest, number as read_number() or the variable's; nothing further is
+            ///< read before Interpreter::give_value()
+  spindle_order,  ///< what the PLC is to do: with a spindle, number as order_master and others; or a signal
+                  ///< that it is to have, number as the variable's; value
+  print,          ///< a line for a file (DPRNT), with the axes at rest; its text is Interpreter::print_text()
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.
@@ -144,6 +156,7 @@ enum class Table : std::uint8_t {
   tool_radius,       ///< likewise
   tool_radius_wear,  ///< likewise
   parameter,         ///< number = parameter, value
+  parts,             ///< value = parts machined, of the channel that runs the program
 };
 
 struct Arc {

@@ -95,11 +95,13 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   compensation::ChannelCompensation::read(p, channel_);
   const auto functions = channel_setup::m_functions(p, channel_);
   const auto dialects = channel_setup::name_dialects(p, channel_);
+  const auto macros = macro_settings(p, channel_);
   const auto axes = machine::channel_axes(p, channel_);
   check_chain_axes(chain, axes, channel_);
   channel_axes_ = axes;
   m_functions_ = functions;
   name_dialects_ = dialects;
+  macro_settings_ = macros;
   chain_ = chain;
   const auto drive = machine::drive_axes(p);
   columns_.clear();
@@ -192,6 +194,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   has_gantry_ = !machine::gantry_pairs(p, channel_).empty();
   checks_exact_stops_ = p.get(parameter::exact_stop_check_time) > 0;
   revision_ = p.revision;
+  parameters_ = p;
 }
 
 // The letters that are spindles count from the one that is coupled without J.
@@ -253,6 +256,12 @@ void ChannelSetup::find_external_parameters(const machine::Parameters& p) {
     external_parameters_[98024 + b] = of(parameter::synchronization_integral_time);
     ++b;
   }
+}
+
+std::optional<double> ChannelSetup::parameter(std::uint32_t number) const {
+  const auto* definition = machine::Catalogue::instance().find(number);
+  if (definition == nullptr || definition->type == machine::ParameterType::text) return std::nullopt;
+  return parameters_.at(number);
 }
 
 std::optional<double> ChannelSetup::external_parameter(std::uint32_t number) const {

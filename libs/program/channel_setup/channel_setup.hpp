@@ -11,6 +11,7 @@
 
 #include "channel_setup/axis_box.hpp"
 #include "channel_setup/control_macros.hpp"
+#include "channel_setup/macro_settings.hpp"
 #include "channel_setup/travel_search.hpp"
 #include "contracts/types.hpp"
 #include "geometry/chain.hpp"
@@ -52,8 +53,8 @@ class ChannelSetup : public language::Environment {
   explicit ChannelSetup(const tool_tables::MachineTables& tables);
 
   /// Throws std::runtime_error when the kinematic parameters make no chain, the chain turns a letter that the
-  /// channel does not have, or the parameters of the compensation, the list of M functions or the dialects of
-  /// names are not valid.
+  /// channel does not have, or the parameters of the compensation, the list of M functions, the dialects of
+  /// names or the codes that call programs are not valid.
   void configure(const machine::Parameters& parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);
@@ -96,6 +97,10 @@ class ChannelSetup : public language::Environment {
     name_dialects_ = {};
   }
   bool haas_radius_offsets() const override { return haas_radius_offsets_; }
+  language::CodeCalls code_calls() const override { return macro_settings_.calls; }
+  bool prints_blanks() const override { return macro_settings_.prints_blanks; }
+  bool offsets_by_axis() const override { return macro_settings_.offsets_by_axis; }
+  std::optional<double> parameter(std::uint32_t number) const override;
   /// Those that are parameters of a spindle, which count from 1 in the order of their axis numbers.
   std::optional<double> external_parameter(std::uint32_t number) const override;
   language::ParameterChanges external_changes(std::uint32_t number, double value) const override;
@@ -213,6 +218,8 @@ class ChannelSetup : public language::Environment {
   language::TwoToolWords two_tool_words_ = language::TwoToolWords::refused;
   language::ProgramDialect program_dialect_ = language::ProgramDialect::iso;
   language::NameDialects name_dialects_;
+  MacroSettings macro_settings_;
+  machine::Parameters parameters_;
   struct ExternalParameter {
     double value = 0;
     std::uint32_t parameter = 0;

@@ -53,6 +53,21 @@ double cosine_of_degrees(double angle) {
   }
 }
 
+constexpr std::uint32_t decimal_digits = 8, bits_of_digit = 4;
+constexpr double most_decimal = 99999999, most_coded = 4294967295.0;
+
+/// Of a number whose digits in base `from` are those of the result in base `to`.
+AlarmNumber change_base(double x, double highest, std::uint64_t from, std::uint64_t to, double& result) {
+  if (!(x >= 0 && x <= highest) || x != std::floor(x)) return AlarmNumber::function_domain;
+  std::uint64_t rest = static_cast<std::uint64_t>(x), place = 1, sum = 0;
+  for (std::uint32_t digit = 0; digit < decimal_digits; ++digit, rest /= from, place *= to) {
+    if (rest % from > 9) return AlarmNumber::function_domain;
+    sum += rest % from * place;
+  }
+  result = static_cast<double>(sum);
+  return AlarmNumber::none;
+}
+
 double full_circle(double y, double x) {
   const double angle = std::atan2(y, x) / degree;
   const double positive = angle < 0 ? angle + 360 : angle + 0.0;  // no negative zero
@@ -175,8 +190,16 @@ AlarmNumber apply(Function function, double x, double& result) {
     case Function::negation:
       result = x == 0 ? 1 : 0;
       break;
+    case Function::from_decimal_digits:
+      return change_base(nearly_whole(x), most_coded, 1u << bits_of_digit, 10, result);
+    case Function::to_decimal_digits:
+      return change_base(nearly_whole(x), most_decimal, 10, 1u << bits_of_digit, result);
+    case Function::with_point:
+      result = x;
+      break;
     case Function::power:
     case Function::argument:
+    case Function::parameter:
       break;
   }
   return std::isfinite(result) ? AlarmNumber::none : AlarmNumber::result_too_large;

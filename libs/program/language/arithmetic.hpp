@@ -51,6 +51,10 @@ enum class Function : std::uint8_t {
   sign,
   negation,
   argument,
+  from_decimal_digits,  ///< BIN
+  to_decimal_digits,    ///< BCD
+  with_point,           ///< ADP
+  parameter,            ///< PRM
 };
 
 struct FunctionName {
@@ -82,6 +86,16 @@ inline constexpr std::array function_names = {
     FunctionName{"NOT", Function::negation, "1 for 0, else 0; also !"},
     FunctionName{"AR", Function::argument,
                  "AR[#n]: 0 when the call did not give variable n, else 90 or 91 as G90 or G91 was active"},
+    FunctionName{
+        "BIN", Function::from_decimal_digits,
+        "number of at most 8 decimal digits, each of which has 4 bits of the argument: BIN[18] is 12"},
+    FunctionName{"BCD", Function::to_decimal_digits, "the inverse, of 0 to 99999999: BCD[12] is 18"},
+    FunctionName{"ADP", Function::with_point,
+                 "its argument: numbers mean the same with and without a decimal point"},
+    FunctionName{
+        "PRM", Function::parameter,
+        "PRM[n]: parameter n of this machine (parameters.md) as it was when the program began; numbers "
+        "of other controls, bits and axes do not exist"},
 };
 
 /// What the operator gives; the alarm when it gives no finite number.

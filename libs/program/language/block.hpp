@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "language/alarms.hpp"
+#include "language/print_line.hpp"
 #include "language/variables.hpp"
 
 namespace trunnion::language {
@@ -39,6 +40,7 @@ enum class Statement : std::uint8_t {
   assignment,  ///< done by the reader
   go_to,       ///< label
   call_cycle,  ///< program_number and arguments
+  print,       ///< printed
   begin_if,    ///< condition
   else_if,     ///< the condition is at `rest`, not evaluated yet: see Dialect::read_condition
   else_,
@@ -111,6 +113,7 @@ struct Block {
   std::array<CallCentre, max_call_centres> centres{};
   std::uint8_t argument_count = 0;
   std::array<Value, max_cycle_arguments> arguments{};  ///< of call_cycle; vacant: skipped, or a text
+  PrintLine printed;                                   ///< of print
 
   static constexpr std::uint32_t bit(char letter) { return 1u << (letter - 'A'); }
   bool has(char letter) const { return (letters & bit(letter)) != 0; }

@@ -37,6 +37,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.length_given = false;
     state.machining_mode = state.modal.smoothing;
     state.accurate_path = false;
+    state.modal.suppressed = 0;
   }
   state.needs_position = state.homing = state.line_open = false;
   state.homed = 0;
@@ -91,8 +92,9 @@ Fault BlockExecutor::run(Flow& flow) {
   if (const Fault fault = carry_out(groups(Group::plane, Group::cycle))) return fault;
   handlers_.cycles.restart_spindle();
   const GCodes& g = context_.words.g();
-  if (const Fault fault =
-          g.has(Group::tool_length) ? carry_out(group_bit(Group::tool_length)) : handlers_.tool.length_word())
+  if (const Fault fault = g.has(Group::tool_length) ? carry_out(group_bit(Group::tool_length))
+                          : calls()                 ? Fault{}
+                                                    : handlers_.tool.length_word())
     return fault;
   if (const Fault fault = g.has(Group::cutter_compensation) ? carry_out(group_bit(Group::cutter_compensation))
                                                             : handlers_.tool.radius_word())
@@ -316,12 +318,33 @@ Fault BlockExecutor::set_call(Flow& flow) {
     if (words.has(letter) && words.used(letter)) return {AlarmNumber::unused_word, words.offset(letter)};
   }
   if (const Fault fault = words.whole_number('P', 1, 99999999, flow.subprogram)) return fault;
+  if (const Fault fault = set_label(flow)) return fault;
   if (!words.has('L')) return {};
   flow.counted = true;
   const Fault fault = words.whole_number('L', 0, highest_repetition, flow.repetitions);
   // As in LinuxCNC a call no times is none.
   if (!fault && flow.repetitions == 0) flow.kind = Flow::Kind::next;
   return fault;
+}
+
+// H is the tool length where G43 has taken it, as Q may be a word of a cycle.
+Fault BlockExecutor::set_label(Flow& flow) {
+  BlockWords& words = context_.words;
+  for (const char letter : {'H', 'Q'}) {
+    if (!words.has(letter) || words.used(letter)) continue;
+    if (flow.from_label) return {AlarmNumber::unused_word, words.offset(letter)};
+    flow.from_label = true;
+    flow.label_offset = words.offset(letter);
+    if (const Fault fault = words.whole_number(letter, 0, 99999999, flow.label)) return fault;
+  }
+  return {};
+}
+
+bool BlockExecutor::calls() const {
+  const MCodes& m = context_.words.m();
+  for (std::size_t i = 0; i < m.count; ++i)
+    if (m.codes[i].action == MAction::call) return true;
+  return false;
 }
 
 void BlockExecutor::set_position(const AxisValues& position) {
@@ -378,6 +401,13 @@ Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::u
   return context_.output.settle();
 }
 
+Fault BlockExecutor::print(std::uint32_t program, std::uint32_t line, CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  if (const Fault fault = context_.output.refuse_in_compensation(0)) return fault;
+  context_.output.push(CommandKind::print);
+  return context_.output.settle();
+}
+
 Fault BlockExecutor::home_axis(std::size_t axis, std::uint32_t program, std::uint32_t line,
                                CommandQueue& out) {
   context_.output.begin(program, line, out);
@@ -420,6 +450,22 @@ Fault BlockExecutor::write_parameter(std::uint32_t number, double value, std::ui
   command.number = number;
   command.value = value;
   return context_.output.settle();
+}
+
+Fault BlockExecutor::write_parts(double parts, std::uint32_t program, std::uint32_t line, CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  Command& command = context_.output.push(CommandKind::table);
+  command.table = Table::parts;
+  command.value = parts;
+  return context_.output.settle();
+}
+
+void BlockExecutor::suppress(bool single_block, std::uint8_t value) {
+  constexpr unsigned alone = canonical::no_single_block;
+  const unsigned before = context_.state.modal.suppressed;
+  const unsigned chosen = value;
+  context_.state.modal.suppressed = static_cast<std::uint8_t>(
+      single_block ? (before & ~alone) | chosen : (before & alone) | (chosen << canonical::path_suppression));
 }
 
 }  // namespace trunnion::language

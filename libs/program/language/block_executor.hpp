@@ -28,7 +28,10 @@ struct Flow {
   std::uint32_t repetitions = 1;  ///< of call
   bool counted = false;           ///< the repetitions were given
   bool local = false;             ///< call of what begins at the sequence number `subprogram` of this text
-  std::uint16_t offset = 0;       ///< of the M word in its line
+  bool from_label = false;        ///< of call: it begins at the sequence number `label`
+  std::uint32_t label = 0;
+  std::uint16_t label_offset = 0;
+  std::uint16_t offset = 0;  ///< of the M word in its line
 };
 
 /// Executes blocks one after the other. Order within a block, which is not the order of its words:
@@ -94,6 +97,10 @@ class BlockExecutor {
   /// read.
   Fault message(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
+  /// Appends the printing of a line (DPRNT). Not with cutter radius compensation: only the newest line has
+  /// its text.
+  Fault print(std::uint32_t program, std::uint32_t line, CommandQueue& out);
+
   /// Appends the search for the reference of `axis` at F, if the channel has it.
   Fault home_axis(std::size_t axis, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
@@ -110,6 +117,11 @@ class BlockExecutor {
   /// Appends the change of a parameter as G10 L50 does.
   Fault write_parameter(std::uint32_t number, double value, std::uint32_t program, std::uint32_t line,
                         CommandQueue& out);
+
+  /// Appends the number of parts that the channel has machined.
+  Fault write_parts(double parts, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+  /// `value` of #3003 when `single_block`, else of #3004: from the next command on.
+  void suppress(bool single_block, std::uint8_t value);
 
   const ModalState& modal() const { return context_.state.modal; }
   /// Where the last move that was read ends, in the frame of its commands. With cutter compensation this is
@@ -153,6 +165,9 @@ class BlockExecutor {
   Fault orientation(std::uint16_t code, char word, double& angle);
   Fault set_flow(Flow& flow);
   Fault set_call(Flow& flow);
+  Fault set_label(Flow& flow);
+  /// An M code of the block calls a subprogram.
+  bool calls() const;
 
   BlockContext context_;
   BlockHandlers handlers_;

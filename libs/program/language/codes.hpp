@@ -90,7 +90,7 @@ enum class MAction : std::uint8_t {
   auxiliary,    ///< handed to the channel and the PLC
   tool_change,  ///< as auxiliary; the selected tool becomes the tool
   program_end,
-  call,     ///< P the subprogram, L how often
+  call,     ///< P the subprogram, H or Q where it begins, L how often
   go_back,  ///< end of a subprogram; a main program starts again from its top
 };
 
@@ -123,8 +123,10 @@ inline constexpr std::array m_codes = {
         "rigid tapping follows: nothing to do, since G74 and G84 are rigid; to the PLC where the list of the "
         "channel has it"},
     MCode{30, When::after, MAction::program_end, MGroup::flow, "program end and rewind"},
-    MCode{98, When::after, MAction::call, MGroup::flow, "subprogram call: P number, L repetitions"},
+    MCode{98, When::after, MAction::call, MGroup::flow,
+          "subprogram call: P number, H or Q sequence number in it, L repetitions"},
     MCode{99, When::after, MAction::go_back, MGroup::flow, "subprogram end"},
+    MCode{198, When::after, MAction::call, MGroup::flow, "as M98: there is one store of programs"},
 };
 inline constexpr std::uint16_t highest_m = 9999;
 

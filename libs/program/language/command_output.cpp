@@ -61,6 +61,7 @@ ModalState CommandOutput::command_modal() {
   }
   ModalState modal = state_.modal;
   if (exact_stop_once_) modal.path_control = PathControl::exact_stop;
+  if ((modal.suppressed & canonical::no_exact_stop) != 0) modal.path_control = PathControl::continuous;
   return modal;
 }
 

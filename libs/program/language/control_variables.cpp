@@ -3,10 +3,9 @@
 
 #include <cmath>
 
+#include "canonical/macro_signal.hpp"
 #include "language/arithmetic.hpp"
 #include "language/decimal.hpp"
-#include "language/letters.hpp"
-#include "language/num_parameters.hpp"
 
 namespace trunnion::language {
 namespace {
@@ -18,52 +17,16 @@ constexpr std::uint32_t basic_offsets = 6;   // G54 .. G59
 
 using canonical::SpindleValue;
 
-constexpr double largest_added_angle = 360;        // deg, of EC
 constexpr std::uint32_t spindle_variables = 4801;  // of the first value; those of the next are 10 behind
 constexpr std::uint32_t values_apart = 10;
-constexpr std::uint32_t num_spindles = 4;       // B1 to B4
-constexpr std::uint32_t speed_control = 91024;  // E91024, of B1
-constexpr std::uint32_t unhomed_axis = 91100;   // E91100, of X
-constexpr double parts_of_turn = 65536;         // unit of E90310 and E95224
-constexpr double steps_of_turn = 100000;        // unit of E90100
 
-constexpr std::array spindle_names = {"spindle 1", "spindle 2", "spindle 3", "spindle 4",
-                                      "spindle 5", "spindle 6", "spindle 7", "spindle 8"};
+constexpr std::uint32_t single_block_variable = 3003;
+constexpr double most_parts = 4294967295.0;
+constexpr std::uint32_t first_modal = 4001;
+constexpr std::uint32_t modal_apart = 200;  // from #4001 to #4201
 
-/// External parameters that the drive knows, first to first + 3.
-struct LiveParameter {
-  std::uint32_t first;
-  SpindleValue value;
-};
-constexpr std::array live_parameters = {
-    LiveParameter{90100, SpindleValue::angle},        LiveParameter{90124, SpindleValue::positioned},
-    LiveParameter{90200, SpindleValue::reference},    LiveParameter{91124, SpindleValue::homed},
-    LiveParameter{93524, SpindleValue::synchronized}, LiveParameter{94124, SpindleValue::master},
-    LiveParameter{95224, SpindleValue::error},
-};
-
-bool of_spindles(std::uint32_t number, std::uint32_t first) {
-  return number >= first && number - first < num_spindles;
-}
-
-/// A value of a spindle in the unit of its external parameter.
-double external_unit(SpindleValue value, double result) {
-  switch (value) {
-    case SpindleValue::homed:
-      return 1 - result;
-    case SpindleValue::master:
-      return result == 0 ? -1 : canonical::master_address + result - 1;
-    case SpindleValue::error:
-      return std::round(result * parts_of_turn / 360);
-    case SpindleValue::angle:
-      return std::floor(result * steps_of_turn / 360);
-    case SpindleValue::reference:
-    case SpindleValue::synchronized:
-    case SpindleValue::positioned:
-      break;
-  }
-  return result;
-}
+/// As one of the table of variables.
+constexpr VariableRange basic_offsets_range{5221, 5329, VariableKind::work_offset, true, ""};
 
 bool is_work_offset(VariableKind kind) {
   return kind == VariableKind::external_work_offset || kind == VariableKind::work_offset ||
@@ -113,94 +76,14 @@ void ControlVariables::give_value(double value) {
 }
 
 // In the order in which the line reads them: it is the same each time.
-AlarmNumber ControlVariables::spindle_value(SpindleValue value, std::uint32_t spindle, double& result) const {
+AlarmNumber ControlVariables::live_value(std::uint32_t number, double& result) const {
   if (values_read_ < values_) {
     result = value_[values_read_++];
     return AlarmNumber::none;
   }
   if (values_ == value_.size()) return AlarmNumber::too_many_codes;
-  wanted_ = canonical::read_number(value, spindle);
+  wanted_ = number;
   return value_pending;
-}
-
-AlarmNumber ControlVariables::live_parameter(std::uint32_t number, double& value) const {
-  for (const LiveParameter& live : live_parameters) {
-    if (!of_spindles(number, live.first)) continue;
-    const AlarmNumber alarm = spindle_value(live.value, number - live.first, value);
-    if (alarm == AlarmNumber::none) value = external_unit(live.value, value);
-    return alarm;
-  }
-  return AlarmNumber::num_parameter_unavailable;
-}
-
-// An axis that the channel does not have would be waited for without end.
-AlarmNumber ControlVariables::not_homed(std::uint32_t address, double& value) const {
-  const auto axis = static_cast<std::uint32_t>(axis_letters.find(addressed_axes[address]));
-  if (((environment_.axes() >> axis) & 1u) == 0) return AlarmNumber::num_parameter_unavailable;
-  const AlarmNumber alarm = homed(axis, value);
-  value = 1 - value;
-  return alarm;
-}
-
-// What the program has written is read again, although the machine takes some of it at a reset only.
-AlarmNumber ControlVariables::read_external(std::uint32_t number, double& value) const {
-  if (number >= unhomed_axis && number - unhomed_axis < addressed_axes.size())
-    return not_homed(number - unhomed_axis, value);
-  const AlarmNumber alarm = live_parameter(number, value);
-  if (alarm != AlarmNumber::num_parameter_unavailable) return alarm;
-  for (std::size_t i = request_count_; i-- > 0;) {
-    if (requests_[i].kind != VariableKind::external || requests_[i].index != number) continue;
-    value = requests_[i].value;
-    return AlarmNumber::none;
-  }
-  for (std::size_t i = 0; i < programmed_count_; ++i) {
-    if (programmed_[i].number != number) continue;
-    value = programmed_[i].value;
-    return AlarmNumber::none;
-  }
-  if (number >= speed_control && number - speed_control < num_spindles) {
-    value = 0;
-    return AlarmNumber::none;
-  }
-  const auto machine = environment_.external_parameter(number);
-  if (!machine) return alarm;
-  value = *machine;
-  return AlarmNumber::none;
-}
-
-// Both have passed their index marks.
-Fault ControlVariables::check_master(std::uint32_t slave, double address) const {
-  if (address == -1) return {};
-  const double master = address - canonical::master_address;
-  if (!(master >= 0 && master < canonical::most_spindles) || master != std::floor(master) || master == slave)
-    return {AlarmNumber::variable_value, 0, "another spindle"};
-  for (const std::uint32_t spindle : {static_cast<std::uint32_t>(master), slave}) {
-    double homed = 0;
-    const AlarmNumber alarm = spindle_value(SpindleValue::homed, spindle, homed);
-    if (alarm != AlarmNumber::none) return {alarm, 0};
-    if (homed != 0) continue;
-    unmarked_ = spindle_names[spindle];
-    return {AlarmNumber::spindle_without_mark, 0};
-  }
-  return {};
-}
-
-Fault ControlVariables::write_external(std::uint32_t number, double value) {
-  if (number == canonical::order_angle) {
-    if (std::abs(value) > largest_added_angle)
-      return {AlarmNumber::value_range, 0, "the angle is -360 to 360 deg"};
-  } else if (of_spindles(number, speed_control)) {
-    return value == 0 ? Fault{} : Fault{AlarmNumber::variable_value, 0, "0: speed control"};
-  } else if (of_spindles(number, canonical::order_master)) {
-    if (const Fault fault = check_master(number - canonical::order_master, value)) return fault;
-  } else if (of_spindles(number, canonical::order_integral)) {
-    if (!environment_.external_parameter(number)) return {AlarmNumber::num_parameter_unavailable, 0};
-  } else if (environment_.external_changes(number, value).count == 0) {
-    return {AlarmNumber::num_parameter_unavailable, 0};
-  }
-  if (request_count_ == requests_.size()) return {AlarmNumber::too_many_codes, 0};
-  requests_[request_count_++] = {VariableKind::external, number, value};
-  return {};
 }
 
 double ControlVariables::in_program_units(std::uint32_t axis, double value) const {
@@ -305,7 +188,27 @@ AlarmNumber ControlVariables::homed(std::uint32_t axis, double& result) const {
   return AlarmNumber::none;
 }
 
+// #2501 is X of G54, #2502 of G55 and #2601 Y of G54.
+std::optional<std::uint32_t> ControlVariables::offset_of_axis(const VariableRange& range,
+                                                              std::uint32_t index) const {
+  constexpr std::uint32_t first = 2500, axes_apart = 100, axes = 3;
+  const std::uint32_t number = range.first + index;
+  if (number < first || number >= first + axes * axes_apart || !environment_.offsets_by_axis())
+    return std::nullopt;
+  const std::uint32_t offset = (number - first) % axes_apart;
+  if (offset == 0 || offset > basic_offsets) return std::nullopt;
+  return (offset - 1) * offsets_apart + (number - first) / axes_apart;
+}
+
+AlarmNumber ControlVariables::read_parameter(std::uint32_t number, double& value) const {
+  const auto parameter = environment_.parameter(number);
+  if (!parameter) return AlarmNumber::parameter_unavailable;
+  value = *parameter;
+  return AlarmNumber::none;
+}
+
 AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t index, Value& value) const {
+  if (const auto offset = offset_of_axis(range, index)) return read(basic_offsets_range, *offset, value);
   double result = 0;
   value = Value{};  // vacant where there is nothing, so that a program can ask
   switch (range.kind) {
@@ -337,8 +240,26 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
     case VariableKind::time_of_day:
       result = time_.time_of_day;
       break;
-    case VariableKind::modal:
-      if (const AlarmNumber alarm = modal(range.first + index, result); alarm != AlarmNumber::none)
+    case VariableKind::modal: {
+      const std::uint32_t apart = range.first == first_modal ? 0 : modal_apart;
+      if (const AlarmNumber alarm = modal(range.first + index - apart, result); alarm != AlarmNumber::none)
+        return alarm;
+      break;
+    }
+    case VariableKind::suppression: {
+      const std::uint8_t suppressed = executor_.modal().suppressed;
+      result = range.first == single_block_variable ? suppressed & canonical::no_single_block
+                                                    : suppressed >> canonical::path_suppression;
+      break;
+    }
+    case VariableKind::mirror:
+      result = executor_.frame().mirrored_axes();
+      break;
+    case VariableKind::parts:
+      result = parts_;
+      break;
+    case VariableKind::macro_signal:
+      if (const AlarmNumber alarm = live_value(range.first + index, result); alarm != AlarmNumber::none)
         return alarm;
       break;
     case VariableKind::cutter_radius:
@@ -387,11 +308,14 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
 }
 
 AlarmNumber ControlVariables::write(const VariableRange& range, std::uint32_t index, Value value) {
+  if (const auto offset = offset_of_axis(range, index))
+    return ask(basic_offsets_range, *offset, value.number);
   switch (range.kind) {
     case VariableKind::alarm:
       return AlarmNumber::program_alarm;
     case VariableKind::message:
     case VariableKind::cycle:
+    case VariableKind::parts:
       return ask(range, index, nearly_whole(value.number));
     case VariableKind::time_milliseconds:
       milliseconds_zero_ = time_.milliseconds - value.number;
@@ -403,6 +327,10 @@ AlarmNumber ControlVariables::write(const VariableRange& range, std::uint32_t in
     case VariableKind::spindle_integral:
     case VariableKind::spindle_angle:
       return order(range, index, nearly_whole(value.number));
+    case VariableKind::suppression:
+      return suppress(range.first, nearly_whole(value.number));
+    case VariableKind::macro_signal:
+      return set_signal(range.first + index, nearly_whole(value.number));
     default:
       return ask(range, index, value.number);
   }
@@ -410,8 +338,10 @@ AlarmNumber ControlVariables::write(const VariableRange& range, std::uint32_t in
 
 AlarmNumber ControlVariables::ask(const VariableRange& range, std::uint32_t index, double value) {
   const bool message = range.kind == VariableKind::message || range.kind == VariableKind::cycle;
-  const double lowest = message || range.kind == VariableKind::radius ? 0 : -largest_number;
-  if (!(value >= lowest && value <= (message ? highest_message : largest_number)))
+  const bool parts = range.kind == VariableKind::parts;
+  const double lowest = message || parts || range.kind == VariableKind::radius ? 0 : -largest_number;
+  const double highest = message ? highest_message : parts ? most_parts : largest_number;
+  if (!(value >= lowest && value <= highest) || (parts && value != std::floor(value)))
     return AlarmNumber::variable_value;
   if (is_work_offset(range.kind) && index % offsets_apart >= axis_count) return AlarmNumber::variable_unknown;
   if (request_count_ == requests_.size()) return AlarmNumber::too_many_codes;
@@ -438,19 +368,46 @@ AlarmNumber ControlVariables::order(const VariableRange& range, std::uint32_t in
   return AlarmNumber::none;
 }
 
+AlarmNumber ControlVariables::suppress(std::uint32_t number, double value) {
+  constexpr double completion = 2, everything = 7;
+  const bool single_block = number == single_block_variable;
+  if (single_block && (value == completion || value == completion + 1)) return AlarmNumber::completion_waited;
+  if (!(value >= 0 && value <= (single_block ? 1 : everything)) || value != std::floor(value))
+    return AlarmNumber::variable_value;
+  if (request_count_ == requests_.size()) return AlarmNumber::too_many_codes;
+  requests_[request_count_++] = {VariableKind::suppression, number, value};
+  return AlarmNumber::none;
+}
+
+// A word may be written with its highest signal as the sign, as Fanuc controls count it.
+AlarmNumber ControlVariables::set_signal(std::uint32_t number, double value) {
+  const bool word = canonical::is_macro_word(number);
+  const double lowest = word ? -32768 : 0, highest = word ? 65535 : 1;
+  if (!(value >= lowest && value <= highest) || value != std::floor(value))
+    return AlarmNumber::variable_value;
+  if (request_count_ == requests_.size()) return AlarmNumber::too_many_codes;
+  requests_[request_count_++] = {VariableKind::macro_signal, number, value};
+  return AlarmNumber::none;
+}
+
 Fault ControlVariables::carry_out(std::uint32_t program, std::uint32_t line, CommandQueue& out) {
   for (std::size_t i = 0; i < request_count_; ++i) {
     const Request& request = requests_[i];
     Fault fault;
     if (request.kind == VariableKind::external) {
       fault = carry_out_external(request, program, line, out);
-    } else if (is_spindle_order(request.kind)) {
+    } else if (is_spindle_order(request.kind) || request.kind == VariableKind::macro_signal) {
       fault = executor_.order_spindle(request.index, request.value, program, line, out);
     } else if (request.kind == VariableKind::message) {
       fault = executor_.message(static_cast<std::uint32_t>(request.value), program, line, out);
     } else if (request.kind == VariableKind::cycle) {
       fault = executor_.call_cycle(static_cast<std::uint32_t>(request.value), program, line, out);
       needs_answer_ = !fault;
+    } else if (request.kind == VariableKind::suppression) {
+      executor_.suppress(request.index == single_block_variable, static_cast<std::uint8_t>(request.value));
+    } else if (request.kind == VariableKind::parts) {
+      parts_ = request.value;
+      fault = executor_.write_parts(request.value, program, line, out);
     } else if (is_work_offset(request.kind)) {
       const std::uint32_t axis = request.index % offsets_apart;
       fault = executor_.write_work_offset(work_offset_index(request.kind, request.index), axis,
@@ -466,38 +423,6 @@ Fault ControlVariables::carry_out(std::uint32_t program, std::uint32_t line, Com
     }
   }
   request_count_ = 0;
-  return {};
-}
-
-// The integral action is an order for the PLC, and its time a parameter: written when the program gives
-// another one than before.
-Fault ControlVariables::carry_out_external(const Request& request, std::uint32_t program, std::uint32_t line,
-                                           CommandQueue& out) {
-  const bool integral = of_spindles(request.index, canonical::order_integral);
-  const bool of_plc = integral || request.index == canonical::order_angle ||
-                      of_spindles(request.index, canonical::order_master);
-  Programmed* before = nullptr;
-  for (std::size_t i = 0; i < programmed_count_; ++i)
-    if (programmed_[i].number == request.index) before = &programmed_[i];
-  ParameterChanges changes;
-  const bool same_time = before != nullptr && std::abs(before->value) == std::abs(request.value);
-  if (!integral)
-    changes = environment_.external_changes(request.index, request.value);
-  else if (request.value != 0 && !same_time)
-    changes = environment_.external_changes(request.index, std::abs(request.value));
-  for (std::size_t i = 0; i < changes.count; ++i) {
-    if (const Fault fault =
-            executor_.write_parameter(changes.list[i].number, changes.list[i].value, program, line, out))
-      return fault;
-  }
-  if (of_plc) {
-    if (const Fault fault = executor_.order_spindle(request.index, request.value, program, line, out))
-      return fault;
-  }
-  if (before != nullptr)
-    before->value = request.value;
-  else if (programmed_count_ < programmed_.size())
-    programmed_[programmed_count_++] = {request.index, request.value};
   return {};
 }
 

@@ -33,6 +33,8 @@ class ControlVariables final : public SystemVariables {
   void set_program_number(std::uint32_t number) { program_number_ = number; }
   /// Where G31 stopped, workpiece, mm and degrees.
   void set_skip_position(const AxisValues& position) { skip_position_ = position; }
+  /// What #3901 shows until the program writes it.
+  void set_parts(double parts) { parts_ = parts; }
   /// As Interpreter::set_homed().
   void set_homed(std::optional<std::uint16_t> axes) { homed_ = axes; }
   /// Radii of tools are read and written as diameters.
@@ -62,11 +64,13 @@ class ControlVariables final : public SystemVariables {
 
   AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const override;
   AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) override;
+  AlarmNumber read_parameter(std::uint32_t number, double& value) const override;
+  bool prints_blanks() const override { return environment_.prints_blanks(); }
   AlarmNumber read_external(std::uint32_t number, double& value) const override;
   Fault write_external(std::uint32_t number, double value) override;
 
   /// Carries out what writing variables asked for since the last time: a message, a change of a table, an
-  /// order for a spindle.
+  /// order for a spindle, a signal to the PLC.
   Fault carry_out(std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
  private:
@@ -83,7 +87,16 @@ class ControlVariables final : public SystemVariables {
   double to_machine_units(std::uint32_t axis, double value) const;
   AlarmNumber ask(const VariableRange& range, std::uint32_t index, double value);
   AlarmNumber order(const VariableRange& range, std::uint32_t index, double value);
-  AlarmNumber spindle_value(canonical::SpindleValue value, std::uint32_t spindle, double& result) const;
+  AlarmNumber suppress(std::uint32_t number, double value);
+  AlarmNumber set_signal(std::uint32_t number, double value);
+  /// Of #2501 .. #2706 where they are work offsets and not tools: the index of the same one among #5221 ..
+  std::optional<std::uint32_t> offset_of_axis(const VariableRange& range, std::uint32_t index) const;
+  static constexpr double largest_added_angle = 360;  // deg, of EC
+  /// What the machine says at rest; `number` as Command::number of kind read.
+  AlarmNumber live_value(std::uint32_t number, double& result) const;
+  AlarmNumber spindle_value(canonical::SpindleValue value, std::uint32_t spindle, double& result) const {
+    return live_value(canonical::read_number(value, spindle), result);
+  }
   AlarmNumber live_parameter(std::uint32_t number, double& value) const;
   Fault check_master(std::uint32_t slave, double address) const;
 
@@ -96,6 +109,7 @@ class ControlVariables final : public SystemVariables {
   std::uint32_t program_number_ = 0;
   bool modal_macro_ = false, needs_answer_ = false, diameters_ = false;
   double answer_ = 0;  // to the newest call of a cycle
+  double parts_ = 0;
   AxisValues skip_position_{};
   std::optional<std::uint16_t> homed_ = 0x1ff;  // at the start, bit a for Axis a
   struct Request {

@@ -115,6 +115,17 @@ inline constexpr std::uint8_t offset_row_count = external_work_offset + 1 + sett
 /// M codes whose block may give an angle by R or P; -1 = none.
 using AngleMCodes = std::array<std::int16_t, 4>;
 
+/// Codes that call a stored program and are what they always are within it (parameters 040690 .. 040720). 0 =
+/// none.
+struct CodeCalls {
+  std::array<std::uint16_t, 10> g{};             ///< the macros O9010 to O9019
+  std::array<std::uint16_t, 10> m{};             ///< the macros O9020 to O9029
+  std::array<std::uint16_t, 9> m_subprograms{};  ///< the subprograms O9001 to O9009
+  bool t = false;                                ///< T: the subprogram O9000, the number in #149
+  bool s = false;                                ///< S: the subprogram O9029, the number in #147
+  bool operator==(const CodeCalls&) const = default;
+};
+
 /// Everything a program's meaning depends on besides its text. The answers must not change between start()
 /// and the end of the program, so that interpreting it again up to a command gives that command again.
 class Environment {
@@ -145,6 +156,16 @@ class Environment {
     static_cast<void>(name);
     return std::nullopt;
   }
+  /// Parameter `number` of the machine as it was when the program began (PRM); nothing when there is none, or
+  /// when it is a text.
+  virtual std::optional<double> parameter(std::uint32_t number) const {
+    static_cast<void>(number);
+    return std::nullopt;
+  }
+  /// DPRNT prints blanks where a number has no sign or fewer digits than places (parameter 040721).
+  virtual bool prints_blanks() const { return true; }
+  /// #2501 to #2706 are work offsets and not tools (parameter 040722).
+  virtual bool offsets_by_axis() const { return false; }
   /// External parameter `number` of the NUM dialect, in the unit of its row in num_parameters.hpp; nothing
   /// when the machine does not have it.
   virtual std::optional<double> external_parameter(std::uint32_t number) const {
@@ -285,6 +306,7 @@ class Environment {
   /// digits ("O0012"), or "USERDEF.CYC" for the file of canned cycles. The text must live until the program's
   /// end; it may be pending at first or fail later.
   virtual TextSource* subprogram(std::string_view name) = 0;
+  virtual CodeCalls code_calls() const { return {}; }
   /// The M code that calls canned cycle G1007 + `index`, index 0 to 7, or 0 (parameters 010170 .. 010177).
   virtual std::uint16_t cycle_m_code(std::size_t index) const {
     (void)index;

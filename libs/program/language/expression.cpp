@@ -197,6 +197,20 @@ bool ExpressionReader::function(Value& value) {
   return fail(AlarmNumber::operand_missing, at);
 }
 
+// A bit or an axis behind the number, as Fanuc writes them, would be read as another expression.
+bool ExpressionReader::parameter(const Value& of, std::uint16_t at, Value& value) {
+  constexpr double highest = 999999;
+  const double number = nearly_whole(of.number);
+  Scanner ahead = scanner_;
+  const bool axis = ahead.take('/') && ahead.more() && ahead.peek() == '[';
+  double result = 0;
+  if (axis || !of.given || !(number >= 0 && number <= highest) || number != std::floor(number))
+    return fail(AlarmNumber::parameter_unavailable, at);
+  const AlarmNumber alarm = variables_.read_parameter(static_cast<std::uint32_t>(number), result);
+  value = Value::of(result);
+  return alarm == AlarmNumber::none || fail(alarm, at);
+}
+
 bool ExpressionReader::call(Function function, std::uint16_t at, Value& value) {
   const std::uint16_t bracket = scanner_.offset();
   scanner_.advance();
@@ -215,8 +229,12 @@ bool ExpressionReader::call(Function function, std::uint16_t at, Value& value) {
     two = (function == Function::arc_tangent || function == Function::power) && scanner_.take(',');
     if (two && !binary(binds_least, second)) return false;
   }
+  const bool of_machine = function == Function::parameter;
+  if (of_machine && scanner_.more() && scanner_.peek() == ',')
+    return fail(AlarmNumber::parameter_unavailable, at);
   if (!scanner_.take(']')) return fail(AlarmNumber::bracket_open, bracket);
   --brackets_;
+  if (of_machine) return parameter(first, at, value);
   if (function == Function::arc_tangent && !two) {
     Scanner ahead = scanner_;
     two = ahead.take('/') && ahead.more() && ahead.peek() == '[';

@@ -42,6 +42,8 @@ class ExpressionReader {
   bool variable_index(double& number);
   bool function(Value& value);
   bool call(Function function, std::uint16_t at, Value& value);
+  /// The parameter of that number.
+  bool parameter(const Value& of, std::uint16_t at, Value& value);
   bool fail(AlarmNumber number, std::uint16_t at) {
     fault_ = {number, at};
     return false;

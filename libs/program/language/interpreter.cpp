@@ -54,6 +54,8 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   variables_.start(variables);
   control_.set_skip_position(variables_.skip_position());
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
+  code_calls_ = environment_.code_calls();
+  calls_by_code_ = code_calls_ != CodeCalls{};
   queue_.clear();
   alarm_ = Alarm{};
   depth_ = 0;
@@ -317,6 +319,9 @@ Interpreter::State Interpreter::execute_words(std::string_view line) {
     const std::string_view shown = line.substr(0, line.find_last_not_of(" \t") + 1);
     message_size_ = text::copy_readable(shown.substr(block_.message_at), message_);
   }
+  if (calls_by_code_ && rules_.cycle_m_codes && !levels_[depth_].by_code) {
+    if (const auto called = call_by_code(line)) return *called;
+  }
   Call call;
   static constexpr CycleMCodes no_cycles{};
   if (find_call(block_, rules_.cycle_m_codes ? cycle_m_codes_ : no_cycles, call))
@@ -352,6 +357,9 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   subprogram.counted = flow.counted || !rules_.number_counts;
   subprogram.offset = flow.offset;
   subprogram.program_offset = block_.offset('P');
+  subprogram.from_label = flow.from_label;
+  subprogram.label = flow.label;
+  subprogram.label_offset = flow.label_offset;
   return flow.local ? call_locally(subprogram, line) : call(subprogram, line);
 }
 

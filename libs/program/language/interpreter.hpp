@@ -48,11 +48,11 @@ inline constexpr VariableStore no_variables{};
 ///
 /// M98 P1234 and G65 P1234 call the program that begins with O1234 or %1234 in the same text, else the text
 /// Environment::subprogram finds for "O1234"; M98 P31234 without L calls O1234 three times when there is no
-/// O31234; G1007 calls %1007 of the text "USERDEF.CYC". A main program ends with M2, M30, its text, a lone %
-/// or the head of the next program; M99 there starts it again from its top. A subprogram must end with M99.
-/// GOTO and M99 P look for N forward, then from the top of the program. While G66 is active, each block that
-/// moves, but for those of the called macro itself, is followed by the call. What the NUM dialect has instead
-/// is in num_dialect.hpp.
+/// O31234, and M98 P1234 H5 begins at its N5; G1007 calls %1007 of the text "USERDEF.CYC". A main program
+/// ends with M2, M30, its text, a lone % or the head of the next program; M99 there starts it again from its
+/// top. A subprogram must end with M99. GOTO and M99 P look for N forward, then from the top of the program.
+/// While G66 is active, each block that moves, but for those of the called macro itself, is followed by the
+/// call. What the NUM dialect has instead is in num_dialect.hpp.
 ///
 /// Each text is read in its own dialect, its subprograms with it: that which its head names
 /// (head_dialect.hpp), else dialect_without_head(); USERDEF.CYC is ISO when its head names none.
@@ -106,6 +106,9 @@ class Interpreter {
   /// more, and a program that asks (#1321) has an alarm. All before the first call.
   void set_homed(std::optional<std::uint16_t> axes) { control_.set_homed(axes); }
 
+  /// The parts machined, which #3901 reads until the program writes it.
+  void set_parts(double parts) { control_.set_parts(parts); }
+
   /// The answer of a called cycle, which #3100 reads. Programs that are called from now on are looked for
   /// again: the service may have stored another text.
   void answer(double value);
@@ -145,6 +148,9 @@ class Interpreter {
   /// bytes: until next() is called behind its CommandKind::message.
   std::string_view message_text() const { return {message_.data(), message_size_}; }
 
+  /// The line that a CommandKind::print has: until next() is called behind it.
+  std::string_view print_text() const { return block_.printed.view(); }
+
   /// Positions, frames and tables as the program has left them, for system variables.
   const BlockExecutor& executor() const { return executor_; }
 
@@ -162,6 +168,9 @@ class Interpreter {
     std::uint32_t remaining = 0;  // repetitions after this one
     bool started = false;         // a head or a word has been read
     bool own_variables = false;
+    bool by_code = false;     // codes that call programs are ordinary ones here
+    bool from_label = false;  // begins at `label`
+    std::uint32_t label = 0;
     bool modal = false;  // called by G66
     ProgramDialect dialect = ProgramDialect::iso;
     std::size_t modal_above = 0;  // of ModalCalls::enter()
@@ -206,6 +215,7 @@ class Interpreter {
     std::uint32_t wanted = 0;
     TextPosition from;      // of the line that jumps
     bool from_top = false;  // second half of the search for a label
+    bool heading = false;   // of a label from the top on: the head of the program has not been passed
     std::size_t depth = 0;  // structures open at the jump
     OpenStructures open;
   };
@@ -256,12 +266,14 @@ class Interpreter {
   State call_macro(Call& call, std::string_view line);
   Fault carry_out_beside(const Call& call);
   void add_settings(const Call& call);
+  std::optional<State> call_by_code(std::string_view line);
   State call(const Call& call, std::string_view line);
   /// What begins at sequence number `call.number` of this program.
   State call_locally(const Call& call, std::string_view line);
   void begin_call(const Call& call);
   State found(TextSource& source, std::uint32_t program, TextPosition top, ProgramDialect dialect);
   State enter(const Found& target);
+  State begin_program();
   /// The axis whose number is in L0: X Y Z U V W A B C.
   std::optional<std::size_t> homing_axis() const;
   State home_axis();
@@ -281,6 +293,8 @@ class Interpreter {
   Block block_;
   Block beside_;  // the codes beside that of a call
   CycleMCodes cycle_m_codes_{};
+  CodeCalls code_calls_;
+  bool calls_by_code_ = false;
   std::array<CallLevel, max_nesting + 1> levels_{};
   std::size_t depth_ = 0;
   State state_ = State::done;
@@ -301,6 +315,7 @@ class Interpreter {
   JumpCache jumps_;
   Alarm not_found_;
   Alarm not_allowed_;
+  Alarm label_not_found_;  // of the sequence number at which a called program begins
   // A call that looks for its program: what was called and where to return to.
   Call call_;
   std::uint32_t called_ = 0;  // the number as written

@@ -6,6 +6,14 @@
 #include "language/num_parameters.hpp"
 
 namespace trunnion::language {
+namespace {
+
+/// M0, M1, M30, M98 and others of which a block has one.
+bool steers_flow(double code) {
+  return code >= 0 && code <= highest_m && m_code(static_cast<std::uint16_t>(code)).group == MGroup::flow;
+}
+
+}  // namespace
 
 Interpreter::State Interpreter::call_macro(Call& call, std::string_view line) {
   if (const Fault fault = read_call(block_, call)) return fail(fault, line);
@@ -56,6 +64,31 @@ void Interpreter::add_settings(const Call& call) {
   values[30] = Value::of(measuring.input);
 }
 
+// Nothing when no code of the block calls by a parameter. What is beside the code of a subprogram is carried
+// out before it.
+std::optional<Interpreter::State> Interpreter::call_by_code(std::string_view line) {
+  Call call, other;
+  std::uint32_t variable = 0, further = 0;
+  double value = 0, unused = 0;
+  if (!take_code_call(block_, code_calls_, call, variable, value)) return std::nullopt;
+  const bool absolute = executor_.modal().absolute;
+  if (call.kind == CallKind::macro) {
+    if (const Fault fault = read_code_call(block_, absolute, call, arguments_)) return fail(fault, line);
+    return this->call(call, line);
+  }
+  bool alone = modal_calls_.active() == nullptr && !find_call(block_, cycle_m_codes_, other) &&
+               !take_code_call(block_, code_calls_, other, further, unused);
+  for (std::size_t i = 0; i < block_.m_count; ++i) alone = alone && !steers_flow(block_.m[i].value);
+  if (!alone) return fail({AlarmNumber::call_not_alone, call.offset}, line);
+  if (variable != 0) variables_.write(variable, Value::of(value));
+  if (block_.has_more()) {
+    Flow flow;
+    if (const Fault fault = executor_.execute(block_, levels_[depth_].program, line_, queue_, flow))
+      return fail(fault, line);
+  }
+  return this->call(call, line);
+}
+
 // The cycle is the program of its number, and its arguments are #1, #2 and so on.
 Interpreter::State Interpreter::call_cycle(std::string_view line) {
   arguments_.clear();
@@ -91,6 +124,10 @@ Interpreter::State Interpreter::call_locally(const Call& call, std::string_view 
 Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
   if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
   begin_call(call);
+  if (call.from_label) {
+    label_not_found_ = located({AlarmNumber::label_missing, call.label_offset}, line);
+    not_allowed_ = located({AlarmNumber::jump_into_structure, call.label_offset}, line);
+  }
   const bool cycle = call.kind == CallKind::cycle;
   TextSource* const caller = levels_[depth_].source;
   for (const Found& known : found_) {
@@ -146,10 +183,25 @@ Interpreter::State Interpreter::enter(const Found& target) {
   level.dialect = target.dialect;
   use_dialect(level.dialect);
   level.open.clear();
+  level.by_code = levels_[depth_ - 1].by_code || call_.by_code;
+  level.from_label = call_.from_label;
+  level.label = call_.label;
   if (level.own_variables) variables_.enter(arguments_);
   if (level.modal) level.modal_above = modal_calls_.enter();
+  return begin_program();
+}
+
+// At its top, or at the sequence number that M98 names.
+Interpreter::State Interpreter::begin_program() {
+  const CallLevel& level = levels_[depth_];
   reader_.seek(*level.source, level.top);
-  return State::running;
+  if (!level.from_label) return State::running;
+  const auto* const known = jumps_.find(level.source, level.top.offset, key(Purpose::label, level.label));
+  if (known != nullptr) return arrive(*known);
+  not_found_ = label_not_found_;
+  const State state = search(Purpose::label, level.label, level.top);
+  search_.heading = true;
+  return state;
 }
 
 // A variable that was never written is 0, and 0 is an axis.
@@ -187,8 +239,7 @@ Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::st
     level.started = false;
     level.open.clear();
     if (level.own_variables) variables_.repeat();
-    reader_.seek(*level.source, level.top);
-    return State::running;
+    return begin_program();
   }
   if (level.own_variables) variables_.leave();
   if (level.modal) modal_calls_.leave(level.modal_above);

@@ -31,6 +31,9 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
       return jump(Purpose::label, block_.label, position_, {AlarmNumber::label_missing, block_.at}, line);
     case Statement::call_cycle:
       return call_cycle(line);
+    case Statement::print:
+      if (const Fault fault = executor_.print(level.program, line_, queue_)) return fail(fault, line);
+      return State::running;
     default:
       break;
   }
@@ -101,7 +104,7 @@ Interpreter::State Interpreter::search(Purpose purpose, std::uint32_t wanted, Te
   search_.dialect = dialect_name_;
   search_.wanted = wanted;
   search_.from = from;
-  search_.from_top = false;
+  search_.from_top = search_.heading = false;
   search_.depth = level.open.size();
   search_.open = level.open;
   return State::searching;
@@ -135,8 +138,10 @@ Interpreter::State Interpreter::search_line(Step& step) {
   }
   if (search_.purpose == Purpose::label || search_.purpose == Purpose::local) {
     // What lies between the top and the jump is this program, its head included.
-    if (search_.from_top ? position.offset > search_.from.offset : outline.head != Head::none)
-      return search_ended();
+    const bool next_program = outline.head != Head::none && !search_.heading;
+    if (search_.from_top ? position.offset > search_.from.offset : next_program) return search_ended();
+    search_.heading = search_.heading && outline.head != Head::program && !outline.sequence_number &&
+                      outline.statement == Statement::none;
     if (outline.sequence_number == search_.wanted) return label_found(position);
   } else {
     if (outline.head != Head::none) return search_ended();

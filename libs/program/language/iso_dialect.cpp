@@ -354,6 +354,15 @@ class BlockReader {
       fault = loop();
     } else if (take_abbreviated(scanner_, "END")) {
       fault = labelled(Statement::end_do);
+    } else if (scanner_.take_word("DPRNT")) {
+      fault = read_print(scanner_, variables_, block_.printed);
+      if (!fault) fault = state(Statement::print);
+    } else if (scanner_.take_word("POPEN") || scanner_.take_word("PCLOS")) {
+      fault = end_of_statement();  // a file is not a line that somebody has to open
+    } else if (scanner_.looking_at("BPRNT")) {
+      return {AlarmNumber::binary_print, at};
+    } else if (scanner_.looking_at("SETVN")) {
+      return {AlarmNumber::variable_names, at};
     } else {
       return {AlarmNumber::unknown_instruction, at};
     }

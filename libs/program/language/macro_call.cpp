@@ -12,6 +12,20 @@ constexpr double highest_program = 99999999;
 constexpr double most_calls = 999999;
 constexpr std::uint32_t first_m_cycle = 1007;
 
+// The programs that codes call, and the variables of T and S, as on Fanuc controls.
+constexpr std::uint32_t t_subprogram = 9000, m_subprogram = 9001, g_macro = 9010, m_macro = 9020,
+                        s_subprogram = 9029;
+constexpr std::uint32_t t_variable = 149, s_variable = 147;
+constexpr std::size_t m_argument = 13, p_argument = 16;
+
+/// Of `code` among those that call, or their number.
+template <std::size_t Count>
+std::size_t place_of(double code, const std::array<std::uint16_t, Count>& calls) {
+  std::size_t k = 0;
+  while (k < Count && (calls[k] == 0 || code != calls[k])) ++k;
+  return k;
+}
+
 Fault whole_word(const Block& block, char name, double lowest, double highest, std::uint32_t& result) {
   const double value = block.value(name);
   if (value != std::floor(value)) return {AlarmNumber::not_an_integer, block.offset(name)};
@@ -45,7 +59,7 @@ void fanuc_arguments(const Block& block, Arguments& arguments) {
       set(argument.variable, block.value(argument.letter), block.offset(argument.letter));
     }
   }
-  if (block.m_count != 0) set(13, block.m[0].value, block.m[0].offset);
+  if (block.m_count != 0) set(m_argument, block.m[0].value, block.m[0].offset);
   // A letter that does not continue from I to K begins the next of ten sets: I J K J K is two of them.
   std::size_t first = 4;
   char last = '\0';
@@ -113,6 +127,59 @@ bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call)
     }
   }
   return false;
+}
+
+bool take_code_call(Block& block, const CodeCalls& calls, Call& call, std::uint32_t& variable,
+                    double& value) {
+  call = Call{};
+  call.by_code = true;
+  call.kind = CallKind::macro;
+  variable = 0;
+  const auto found = [&](std::uint32_t number, std::uint16_t at) {
+    call.number = number;
+    call.offset = call.program_offset = at;
+    return true;
+  };
+  for (std::size_t i = 0; i < block.g_count; ++i) {
+    const std::size_t k = place_of(block.g[i].value, calls.g);
+    if (k < calls.g.size()) return found(g_macro + static_cast<std::uint32_t>(k), block.g[i].offset);
+  }
+  for (std::size_t i = 0; i < block.m_count; ++i) {
+    const std::size_t k = place_of(block.m[i].value, calls.m);
+    if (k < calls.m.size()) return found(m_macro + static_cast<std::uint32_t>(k), block.m[i].offset);
+  }
+  call.kind = CallKind::subprogram;
+  for (std::size_t i = 0; i < block.m_count; ++i) {
+    const std::size_t k = place_of(block.m[i].value, calls.m_subprograms);
+    if (k == calls.m_subprograms.size()) continue;
+    const std::uint16_t at = block.m[i].offset;
+    std::copy(block.m.begin() + static_cast<std::ptrdiff_t>(i + 1), block.m.begin() + block.m_count,
+              block.m.begin() + static_cast<std::ptrdiff_t>(i));
+    --block.m_count;
+    return found(m_subprogram + static_cast<std::uint32_t>(k), at);
+  }
+  for (const char letter : {'T', 'S'}) {
+    if (!(letter == 'T' ? calls.t : calls.s) || !block.has(letter)) continue;
+    variable = letter == 'T' ? t_variable : s_variable;
+    value = block.value(letter);
+    block.letters &= ~Block::bit(letter);
+    return found(letter == 'T' ? t_subprogram : s_subprogram, block.offset(letter));
+  }
+  return false;
+}
+
+Fault read_code_call(const Block& block, bool absolute, Call& call, Arguments& arguments) {
+  const bool by_m = call.number >= m_macro;
+  // M may be an argument of a G code; otherwise the code of the call is the only one.
+  if (by_m ? block.g_count != 0 || block.m_count > 1 : block.g_count > 1 || block.m_count > 1)
+    return {AlarmNumber::call_not_alone, call.offset};
+  if (block.has('L')) {
+    if (const Fault fault = whole_word(block, 'L', 1, most_calls, call.repetitions)) return fault;
+  }
+  read_arguments(block, call.kind, absolute, arguments);
+  if (by_m) arguments.values[m_argument] = Value{};
+  if (block.has('P')) arguments.values[p_argument] = Value::of(block.value('P'));
+  return {};
 }
 
 Fault read_call(const Block& block, Call& call) {

@@ -8,6 +8,7 @@
 
 #include "language/block.hpp"
 #include "language/codes.hpp"
+#include "language/environment.hpp"
 
 namespace trunnion::language {
 
@@ -88,6 +89,10 @@ struct Call {
   std::uint16_t code = 0;            ///< tenths, of kind control
   std::uint16_t offset = 0;          ///< of the code in its line
   std::uint16_t program_offset = 0;  ///< of the word that names the program
+  bool by_code = false;              ///< by a code that is an ordinary one in the program
+  bool from_label = false;           ///< begins at the sequence number `label`
+  std::uint32_t label = 0;
+  std::uint16_t label_offset = 0;
 };
 
 /// The M codes that call G1007 .. G1014, 0 for none (parameters 010170 .. 010177).
@@ -95,6 +100,14 @@ using CycleMCodes = std::array<std::uint16_t, 8>;
 
 /// Whether `block` calls a macro or a cycle.
 bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call);
+
+/// Whether a code of `block` calls a program because `calls` says so: a macro, or a subprogram, whose code is
+/// then no longer in the block. `variable` is the common variable that gets the number behind T or S, and
+/// `value` that number; 0 = none.
+bool take_code_call(Block& block, const CodeCalls& calls, Call& call, std::uint32_t& variable, double& value);
+
+/// The arguments of a macro that take_code_call has found: as those of G65, and P is #16.
+Fault read_code_call(const Block& block, bool absolute, Call& call, Arguments& arguments);
 
 /// Completes a call that find_call has found: P, L and that nothing else is in the block.
 Fault read_call(const Block& block, Call& call);

@@ -71,6 +71,8 @@ class ProgramFrame {
   void set_mirror(std::uint8_t axis, bool on, double about);
   void clear_mirror();
   bool mirrored() const { return mirrored_ != 0; }
+  /// A bit of each axis.
+  std::uint16_t mirrored_axes() const { return mirrored_; }
 
   /// Factors of X Y Z, negative ones mirror; none may be 0.
   void set_scaling(const Vector3& centre, const Vector3& factors);

@@ -81,6 +81,7 @@ class Scanner {
     p_ += word.size();
     return true;
   }
+  std::string_view rest() const { return {p_, static_cast<std::size_t>(end_ - p_)}; }
   std::uint16_t offset() const { return static_cast<std::uint16_t>(p_ - begin_); }
   Decimal number() {
     const Decimal decimal = read_decimal(p_, end_);

@@ -11,6 +11,20 @@ const VariableRange* system_range(double number) {
   return nullptr;
 }
 
+/// Why a variable of Fanuc controls does not exist here.
+AlarmNumber refusal(VariableKind kind) {
+  switch (kind) {
+    case VariableKind::setting:
+      return AlarmNumber::settings_variable;
+    case VariableKind::required_parts:
+      return AlarmNumber::parts_required;
+    case VariableKind::servo_deviation:
+      return AlarmNumber::servo_deviation_unknown;
+    default:
+      return AlarmNumber::none;
+  }
+}
+
 }  // namespace
 
 void Variables::start(const VariableStore& store) {
@@ -71,6 +85,7 @@ AlarmNumber Variables::read_common(double number, Value& value) const {
   }
   const VariableRange* const range = system_range(number);
   if (range == nullptr) return AlarmNumber::variable_unknown;
+  if (const AlarmNumber refused = refusal(range->kind); refused != AlarmNumber::none) return refused;
   ++system_reads_;
   return system_.read(*range, static_cast<std::uint32_t>(number) - range->first, value);
 }
@@ -87,6 +102,7 @@ AlarmNumber Variables::write(double number, Value value) {
   }
   const VariableRange* const range = system_range(number);
   if (range == nullptr) return AlarmNumber::variable_unknown;
+  if (const AlarmNumber refused = refusal(range->kind); refused != AlarmNumber::none) return refused;
   if (!range->writable) return AlarmNumber::variable_read_only;
   return system_.write(*range, static_cast<std::uint32_t>(number) - range->first, value);
 }

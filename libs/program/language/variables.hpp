@@ -50,6 +50,13 @@ enum class VariableKind : std::uint8_t {
   spindle,
   spindle_integral,
   spindle_angle,
+  suppression,
+  mirror,
+  parts,
+  macro_signal,
+  setting,  ///< refused, as the next two
+  required_parts,
+  servo_deviation,
   external,  ///< an external parameter of the NUM dialect: in no range
 };
 
@@ -66,6 +73,12 @@ inline constexpr std::array variable_ranges = {
                   "local to a macro or cycle; M98 keeps those of its caller"},
     VariableRange{50, 199, VariableKind::common, true, "common to all programs, forgotten at power-off"},
     VariableRange{500, 999, VariableKind::kept, true, "common to all programs, kept"},
+    VariableRange{1000, 1015, VariableKind::macro_signal, false,
+                  "signals 0 to 15 of the PLC to programs, 0 or 1; read at rest"},
+    VariableRange{1032, 1032, VariableKind::macro_signal, false, "#1000 .. #1015 as one word, 0 .. 65535"},
+    VariableRange{1100, 1115, VariableKind::macro_signal, true,
+                  "signals 0 to 15 of programs to the PLC, 0 or 1; read at rest; writing them too"},
+    VariableRange{1132, 1132, VariableKind::macro_signal, true, "#1100 .. #1115 as one word, 0 .. 65535"},
     VariableRange{
         1321, 1329, VariableKind::homed, false,
         "1 = the axis had its reference when the program began, or the program has homed it: X Y Z A B C "
@@ -78,16 +91,32 @@ inline constexpr std::array variable_ranges = {
                   "writing stops the program with the alarm and its comment"},
     VariableRange{3001, 3001, VariableKind::time_milliseconds, true, "timer, ms"},
     VariableRange{3002, 3002, VariableKind::time_hours, true, "timer, h"},
+    VariableRange{3003, 3003, VariableKind::suppression, true,
+                  "1 = no stop of single block; M, S and T always wait for their completion"},
+    VariableRange{3004, 3004, VariableKind::suppression, true,
+                  "sum of 1 = a feed hold of the operator waits, 2 = feed override 100 %, 4 = no exact stop"},
+    VariableRange{3005, 3005, VariableKind::setting, false,
+                  "does not exist, alarm 1516: units by G20 and G21"},
     VariableRange{3006, 3006, VariableKind::message, true, "writing stops as M0 does and shows the comment"},
+    VariableRange{
+        3007, 3007, VariableKind::mirror, false,
+        "axes that are mirrored (G51.1, G24), as a sum: 1 X, 2 Y, 4 Z, 8 A, 16 B, 32 C, 64 U, 128 V, "
+        "256 W"},
     VariableRange{3011, 3011, VariableKind::date, false, "date as year month day: 20250131"},
     VariableRange{3012, 3012, VariableKind::time_of_day, false, "time as hours minutes seconds: 235959"},
     VariableRange{
         3100, 3100, VariableKind::cycle, true,
         "writing calls a cycle of another service: 9960 begins it, 0 when its part is done; reads 1 = call "
         "the part O99601, 0 = finished"},
+    VariableRange{3901, 3901, VariableKind::parts, true,
+                  "parts machined, as they were when the program began or as it has written them"},
+    VariableRange{3902, 3902, VariableKind::required_parts, false,
+                  "does not exist, alarm 1517: keep the number of required parts in #500 .. #999"},
     VariableRange{4001, 4130, VariableKind::modal, false, "modal codes and words of the blocks before"},
-    VariableRange{4207, 4207, VariableKind::cutter_radius, false,
+    VariableRange{4199, 4199, VariableKind::cutter_radius, false,
                   "radius of the active D with its wear; vacant when the tool has none"},
+    VariableRange{4201, 4330, VariableKind::modal, false,
+                  "the same: a program finds its variables as its own blocks have left them"},
     VariableRange{4801, 4808, VariableKind::spindle, false,
                   "1 = spindle 1 to 8 has passed its index mark; read at rest"},
     VariableRange{4811, 4818, VariableKind::spindle, false,
@@ -111,12 +140,20 @@ inline constexpr std::array variable_ranges = {
     VariableRange{5061, 5069, VariableKind::skip_position, false,
                   "where the newest G31 stopped, workpiece coordinates; kept"},
     VariableRange{5081, 5089, VariableKind::active_length, false, "active tool length by axis: 5083 for Z"},
+    VariableRange{5101, 5109, VariableKind::servo_deviation, false,
+                  "does not exist, alarm 1518: the axes follow later than the program is read"},
     VariableRange{5201, 5209, VariableKind::external_work_offset, true,
                   "external work offset, which is added to every other, X Y Z A B C U V W"},
     VariableRange{5221, 5329, VariableKind::work_offset, true,
                   "work offsets: 5221 X of G54, 5241 of G55 .. 5321 of G59"},
     VariableRange{7001, 7949, VariableKind::extended_work_offset, true,
                   "work offsets: 7001 X of G54.1 P1, 7021 of P2 .. 7941 of P48"},
+    VariableRange{10001, 10999, VariableKind::length_wear, true, "tool length wear of tool 1 to 999, mm"},
+    VariableRange{11001, 11999, VariableKind::length, true, "tool length of tool 1 to 999, mm"},
+    VariableRange{12001, 12999, VariableKind::radius_wear, true, "tool radius wear of tool 1 to 999, mm"},
+    VariableRange{13001, 13999, VariableKind::radius, true, "tool radius of tool 1 to 999, mm"},
+    VariableRange{14001, 14949, VariableKind::extended_work_offset, true,
+                  "work offsets as #7001: 14001 X of G54.1 P1 .. 14941 of P48"},
     VariableRange{50000, 54999, VariableKind::user, true, "common to all programs, kept"},
 };
 
@@ -168,6 +205,14 @@ class SystemVariables {
   /// `index` counts from the first of `range`.
   virtual AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const = 0;
   virtual AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) = 0;
+  /// Parameter `number` of the machine (PRM).
+  virtual AlarmNumber read_parameter(std::uint32_t number, double& value) const {
+    static_cast<void>(number);
+    value = 0;
+    return AlarmNumber::parameter_unavailable;
+  }
+  /// DPRNT prints blanks where a number has no sign or fewer digits than places.
+  virtual bool prints_blanks() const { return true; }
   /// An external parameter of the NUM dialect, by its number.
   virtual AlarmNumber read_external(std::uint32_t number, double& value) const {
     static_cast<void>(number);
@@ -216,6 +261,11 @@ class Variables {
     return read_common(number, value);
   }
   AlarmNumber write(double number, Value value);
+  /// As SystemVariables; they do not change while a program runs.
+  AlarmNumber read_parameter(std::uint32_t number, double& value) const {
+    return system_.read_parameter(number, value);
+  }
+  bool prints_blanks() const { return system_.prints_blanks(); }
   /// As SystemVariables; counts as a system variable that was read.
   AlarmNumber read_external(std::uint32_t number, double& value) const {
     ++system_reads_;

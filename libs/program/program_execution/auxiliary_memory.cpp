@@ -15,6 +15,10 @@ void AuxiliaryMemory::pass(const language::Command& command) {
     limit_ = surface_ ? command.modal.spindle_limit : 0;
     return;
   }
+  if (command.kind == CommandKind::spindle_order) {
+    ++not_repeated_;
+    return;
+  }
   if (command.kind != CommandKind::auxiliary) return;
   const auto code = language::m_code(static_cast<std::uint16_t>(command.number));
   switch (code.number) {

@@ -12,10 +12,10 @@ namespace trunnion::program_execution {
 
 using idl::channel::AuxiliaryKind;
 
-/// One M, S, T or order for a spindle (E) of the handshake with the PLC.
+/// One M, S, T, or order for a spindle or signal (E), of the handshake with the PLC.
 struct AuxiliaryFunction {
   AuxiliaryKind kind = AuxiliaryKind::M;
-  std::uint32_t code = 0;  ///< M or T number; of E as Command::number of kind spindle_order
+  std::uint32_t code = 0;  ///< M or T number; of E as Command::number of kinds spindle_order and read
   double value = 0;        ///< S in 1/min, or m/min with G96; with has_value the angle of M19 in deg
   bool has_value = false;  ///< of M and E
   bool surface = false;    ///< of S: `value` is a surface speed (G96)
@@ -24,7 +24,8 @@ struct AuxiliaryFunction {
 };
 
 /// Takes every command of a program in its sequence and keeps the state they add up to. M codes of no group
-/// have no state that could be restored; they are counted, so that the operator can be told.
+/// have no state that could be restored; they are counted with the orders for spindles and the signals to the
+/// PLC, so that the operator can be told.
 class AuxiliaryMemory {
  public:
   void clear() { *this = {}; }
@@ -37,7 +38,7 @@ class AuxiliaryMemory {
   /// The same, of those groups only that `other` has changed.
   std::vector<AuxiliaryFunction> functions_changed_by(const AuxiliaryMemory& other) const;
 
-  /// M codes without a state that were passed: they are not repeated.
+  /// M codes without a state, orders and signals that were passed: they are not repeated.
   std::uint32_t not_repeated() const { return not_repeated_; }
 
  private:

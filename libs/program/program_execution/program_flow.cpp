@@ -61,6 +61,7 @@ void ProgramFlow::start(motion::MoveTaker& motion, language::TextSource& text, c
   interpreter_.stop_before_line(entry.line);
   have_command_ = false;
   block_line_ = 0;
+  block_runs_on_ = suppression_used_ = false;
   entry_ = entry;
   search_ = entry.restart.sequence > 0 ? Search::restart : entry.line > 0 ? Search::line : Search::none;
   if (entry.restart.sequence == 0) skips_.clear();
@@ -419,6 +420,7 @@ FlowState ProgramFlow::fill(bool single_block) {
     frame_ = command_.modal.frame;
     surface_speed_used_ =
         surface_speed_used_ || command_.modal.spindle_mode == language::SpindleMode::surface;
+    suppression_used_ = suppression_used_ || command_.modal.suppressed != 0;
     if (!(*modals_.newest() == command_.modal)) modals_.add(command_.sequence, command_.modal);
     const bool stroke =
         command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
@@ -437,11 +439,12 @@ FlowState ProgramFlow::fill(bool single_block) {
       thread_complete_ = true;
       return FlowState::full;
     }
-    if (single_block && block_line_ != 0 && command_.line != block_line_ && !threading_) {
+    if (single_block && block_line_ != 0 && command_.line != block_line_ && !threading_ && !block_runs_on_) {
       motion_->finish();
       return FlowState::block_end;
     }
     block_line_ = command_.line;
+    block_runs_on_ = (command_.modal.suppressed & canonical::no_single_block) != 0;
     if (thread && machine_ != nullptr && !machine_->tapping_spindle().axis)
       return fail(language::AlarmNumber::tapping_spindle_missing);
     if (threading_) {

@@ -82,6 +82,8 @@ class ProgramFlow {
   /// What the operator is told of a tap that is in its hole, where the axes are at the start: then no move
   /// but its removal may begin. Empty: there is none, or it has come out.
   void set_tap_in_hole(std::string words) { tap_in_hole_ = std::move(words); }
+  /// As Interpreter::set_parts().
+  void set_parts(double parts) { interpreter_.set_parts(parts); }
   /// As Interpreter::set_homed().
   void set_homed(std::optional<std::uint16_t> axes) { interpreter_.set_homed(axes); }
 
@@ -174,6 +176,8 @@ class ProgramFlow {
   const ModalTrail& modals() const { return modals_; }
   /// A command since the start, or the state it began in, had a constant surface speed (G96).
   bool surface_speed_used() const { return surface_speed_used_; }
+  /// A command since the start keeps something from acting on it (ModalState::suppressed).
+  bool suppression_used() const { return suppression_used_; }
   /// mm from the centre of the spindle, X = 0 of the workpiece, of `position` in the command `sequence`;
   /// nothing without G96.
   std::optional<double> turning_radius(std::uint32_t sequence, const AxisValues& position) const;
@@ -245,6 +249,7 @@ class ProgramFlow {
   double dry_run_feed_ = 0;
   bool have_command_ = false;
   std::uint32_t block_line_ = 0;
+  bool block_runs_on_ = false;  // single block does not stop behind it (#3003)
   Entry entry_;
   Search search_ = Search::none;
   bool restart_passed_ = false;     // the stroke or thread of the restart point is done
@@ -254,7 +259,7 @@ class ProgramFlow {
   bool coupled_threads_ = false, threading_ = false, thread_complete_ = false;
   bool behind_thread_ = false;  // the line to start from may continue one
   std::vector<ThreadLeg> legs_;
-  bool surface_speed_used_ = false;
+  bool surface_speed_used_ = false, suppression_used_ = false;
   std::uint64_t lines_at_motion_ = 0, most_lines_ = lines_of_loop;
   AxisValues place_{};        // where the newest motion ends
   AxisValues home_target_{};  // of the newest search for references

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a program has learned at rest, and reads again in a restart: where skip moves and searches for
-// references have ended, and values of spindles.
+// references have ended, and values of spindles and signals of the PLC.
 #include <string>
 #include <utility>
 
@@ -35,7 +35,7 @@ void ProgramFlow::value_read(double value) {
 FlowState ProgramFlow::continue_after_read() {
   if (search_ == Search::line)
     return fail_search("line " + std::to_string(command_.line) +
-                       " reads the state of a spindle, and what follows depends on it");
+                       " reads a spindle or a signal of the PLC, and what follows depends on it");
   if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
   const auto& result = skips_[skips_read_];
   interpreter_.give_value(result.stopped[language::X]);

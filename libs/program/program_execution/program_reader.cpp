@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_execution/program_reader.hpp"
 
+#include "canonical/macro_signal.hpp"
 #include "canonical/spindle_value.hpp"
 #include "language/codes.hpp"
 
@@ -127,10 +128,16 @@ std::optional<Ending> ProgramReader::take(const Command& command) {
   return std::nullopt;
 }
 
-// So that programs that wait for it go on.
+// So that programs that wait for it go on: for a signal of the PLC, whichever value it is to have.
 void ProgramReader::answer_read() {
   read_on_its_way_ = false;
-  const auto value = canonical::read_value(flow_.pending().number);
+  const auto number = flow_.pending().number;
+  if (canonical::is_macro_signal(number)) {
+    constexpr std::uint16_t every = 0xffff;
+    flow_.value_read(reads_ % 2 == 0 ? canonical::macro_value(number, every) : 0);
+    return;
+  }
+  const auto value = canonical::read_value(number);
   const bool holds =
       value == canonical::SpindleValue::homed || value == canonical::SpindleValue::synchronized;
   flow_.value_read(holds ? 1 : 0);

@@ -2,8 +2,8 @@
 // Reads a whole program without a cluster, for what checks, draws or plans it. Moves and alarms are those of
 // the channel, for they come from the same ProgramFlow; what the channel asks of others while the axes stand
 // is done at once: the PLC carries out every function, a skip move meets nothing, a search for references
-// ends at the reference position, the cycle of another service has no parts, and spindles are homed,
-// synchronized and without error.
+// ends at the reference position, the cycle of another service has no parts, spindles are homed,
+// synchronized and without error, and signals of the PLC are 0 at first and then 1 and 0 in turn.
 #pragma once
 
 #include <functional>
@@ -31,7 +31,7 @@ struct ReadingOptions {
   bool find_repetition = true;
   /// In a row, without a move, after which a program is Ending::idle.
   std::uint64_t most_idle_lines = 100000000;
-  /// Values of spindles, likewise.
+  /// Values of spindles and signals, likewise.
   std::uint64_t most_idle_reads = 10000;
 };
 

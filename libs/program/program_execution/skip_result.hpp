@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a skip move (G31) ended; also what else a program has learned at rest, in its order: where a search
-// for references has ended, and values of spindles (ProgramFlow::value_read).
+// for references has ended, and values of spindles and signals (ProgramFlow::value_read).
 #pragma once
 
 #include <vector>

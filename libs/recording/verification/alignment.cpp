@@ -108,7 +108,8 @@ class Shift {
     if (type == bus::Fields<idl::stream::AxisBatch>::name) return batch(message, axis_);
     if (type == bus::Fields<idl::stream::Feedback>::name) return feedback(message);
     if (message.topic->handle == "auxiliary_request") return request(message);
-    return message.topic->handle == "auxiliary_done" && done(message);
+    if (message.topic->handle == "macro_signal") return answer(message, signal_);
+    return message.topic->handle == "auxiliary_done" && answer(message, done_);
   }
 
  private:
@@ -156,11 +157,11 @@ class Shift {
     bus::encode(r, message.cdr);
     return true;
   }
-  bool done(StoredMessage& message) {
-    auto& d = done_;
-    if (!bus::decode(message.cdr, d) || !functions_.contains({d.channel, d.number})) return false;
-    d.number -= first_function_.at(d.channel) - 1;
-    bus::encode(d, message.cdr);
+  template <class Answer>
+  bool answer(StoredMessage& message, Answer& value) const {
+    if (!bus::decode(message.cdr, value) || !functions_.contains({value.channel, value.number})) return false;
+    value.number -= first_function_.at(value.channel) - 1;
+    bus::encode(value, message.cdr);
     return true;
   }
 
@@ -172,14 +173,15 @@ class Shift {
   idl::stream::Feedback feedback_;
   idl::channel::AuxiliaryRequest request_;
   idl::plc::AuxiliaryDone done_;
+  idl::plc::MacroSignal signal_;
 };
 
 }  // namespace
 
 const std::set<std::string>& aligned_topics() {
-  static const std::set<std::string> handles = {"path_batch",    "kinematics_batch", "compensation_batch",
-                                                "gantry_batch",  "feedback",         "auxiliary_request",
-                                                "auxiliary_done"};
+  static const std::set<std::string> handles = {"path_batch",     "kinematics_batch", "compensation_batch",
+                                                "gantry_batch",   "feedback",         "auxiliary_request",
+                                                "auxiliary_done", "macro_signal"};
   return handles;
 }
 

@@ -84,6 +84,8 @@ class Search {
       see("cycle of a service", true);
     } else if (is(message, "auxiliary_done", done_)) {
       see(done_.failed ? "refused function" : "function", true);
+    } else if (message.topic->handle == "macro_signal") {
+      see("function", true);
     } else if (is(message, "channel_reply", channel_reply_)) {
       see("refused command", !channel_reply_.accepted);
     } else if (is(message, "parameter_reply", parameter_reply_)) {

@@ -23,7 +23,7 @@ const std::vector<std::string>& default_topics() {
   static const std::vector<std::string> handles = {
       "path_batch",     "kinematics_batch", "compensation_batch", "gantry_batch", "feedback",
       "stream_request", "parameter_set",    "tool_table",         "work_offsets", "auxiliary_request",
-      "auxiliary_done", "cycle_request",    "cycle_reply",        "alarm"};
+      "auxiliary_done", "macro_signal",     "cycle_request",      "cycle_reply",  "alarm"};
   return handles;
 }
 

@@ -43,6 +43,12 @@ std::pair<Mark, bool> Progress::observe(const StoredMessage& message) {
             },
             mark) &&
         !numbered(
+            message, "macro_signal", macro_signal_,
+            [](const auto& v) {
+              return Place{0, v.number};
+            },
+            mark) &&
+        !numbered(
             message, "auxiliary_request", auxiliary_request_,
             [](const auto& v) {
               return Place{v.number, v.kind == idl::channel::AuxiliaryKind::NO_AUXILIARY ? 1u : 0u};

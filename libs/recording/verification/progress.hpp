@@ -55,6 +55,7 @@ class Progress {
   idl::channel::AuxiliaryRequest auxiliary_request_;
   idl::channel::CycleRequest cycle_request_;
   idl::plc::AuxiliaryDone auxiliary_done_;
+  idl::plc::MacroSignal macro_signal_;
 };
 
 }  // namespace trunnion::verification

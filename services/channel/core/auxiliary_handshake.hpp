@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program asks of the PLC while the axes are at rest: M S T, and orders for spindles (E).
+// What a program asks of the PLC while the axes are at rest: M S T, orders for spindles and signals (E).
 #pragma once
 
 #include <optional>
@@ -25,6 +25,8 @@ class AuxiliaryHandshake {
   void begin(const program_execution::AuxiliaryFunction& function, std::uint64_t cycle);
   /// The open function as a program writes it ("M6"), empty when none is.
   std::string function() const;
+  /// What a failure of the open function means and what to do, for the operator.
+  std::string refusal() const;
   /// The PLC's answer. Only the open function's number counts.
   Outcome finish(const idl::plc::AuxiliaryDone& done);
 
@@ -46,6 +48,7 @@ class AuxiliaryHandshake {
   // A restarted process counts on from the next epoch: fewer functions than this fall into one.
   static constexpr std::uint32_t numbers_per_epoch = 4096;
   void lower_strobe();
+  bool is_signal() const;
 
   std::uint16_t channel_;
   std::uint32_t number_ = 0;

@@ -99,7 +99,7 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::START_FROM_LINE:
       return start_from_line(request.line);
     case CommandKind::FEED_HOLD:
-      if (states_.advances()) hold();
+      hold_for_operator();
       end_homing();
       return {};
     case CommandKind::RESET:
@@ -202,6 +202,7 @@ Answer ChannelCore::cycle_start() {
   if (states_.in<Interrupted>()) return continue_after_interruption();
   if (!states_.in<Held>()) return refuse(alarm::request_invalid, "The channel is busy");
   path().trajectory().retrace(false);
+  hold_waits_ = false;
   states_.resume();
   return {};
 }
@@ -231,6 +232,7 @@ Answer ChannelCore::continue_after_interruption() {
     return refuse(alarm::not_ready,
                   "The axes were stopped in a thread: reset the channel, retract the tool, cut it again");
   stream_.link().request_resume();
+  hold_waits_ = false;
   states_.resume_interrupted();
   return {};
 }

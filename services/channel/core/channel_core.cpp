@@ -85,7 +85,7 @@ RunningProgram ChannelCore::running_program() const {
   if (program_under_way())
     left = {selected().name, selected().revision, selected().crc32,
             std::max<std::uint32_t>(program_line(), 1)};
-  return {left, ended_, parts_, tool_, tool_since_, tap_};
+  return {left, ended_, parts_, tool_, tool_since_, tap_, printer_.printed()};
 }
 
 // What the program has read ahead counts: a variable is not restored when the motion behind it is stopped.
@@ -149,15 +149,18 @@ void ChannelCore::stop_activity() {
   end_cycle();
   leave_temporary_program();
   restart_.reset();
+  hold_waits_ = false;
   bodies_.forget_jog();
   manual_.end_wheel();
   handshake_.cancel();
   table_change_.cancel();
+  printer_.cancel();
   apply_parameters();
 }
 
 void ChannelCore::finish(bool program_end) {
   const bool reset = states_.resetting();
+  hold_waits_ = false;
   skip_.end();
   read_.end();
   spindles_.end();

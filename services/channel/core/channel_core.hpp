@@ -29,6 +29,7 @@
 #include "hand_over.hpp"
 #include "homing.hpp"
 #include "interlock.hpp"
+#include "line_printer.hpp"
 #include "machine/alarm_definition.hpp"
 #include "manual_motion.hpp"
 #include "mdi.hpp"
@@ -88,11 +89,14 @@ class ChannelCore {
     interrupted_ = program, ended_ = program.ended, parts_ = program.parts;
     tool_ = program.tool, tool_since_ = program.tool_since;
     tap_ = program.tap;
+    printer_.set_printed(program.printed);
   }
   /// Machined since the count was set.
   std::uint32_t parts() const { return parts_; }
   /// In the spindle.
   std::uint32_t tool() const { return tool_; }
+  /// The newest line that a program has printed.
+  const PrintedLine& printed() const { return printer_.printed(); }
   /// The tap that is in its hole, or was left there.
   const program_execution::TapInHole& tap() const { return tap_; }
   /// `collision: warn` or `stop` of machine.yaml; without it nothing is checked.
@@ -104,8 +108,12 @@ class ChannelCore {
   void recover();
   bool recovered() const { return recovered_; }
   void on_auxiliary_done(const idl::plc::AuxiliaryDone& done);
+  /// The answer to an AuxiliaryRequest that reads a signal.
+  void on_macro_signal(const idl::plc::MacroSignal& signal);
   /// The answer to the request of take_table_request(); `reason` is empty when the table was changed.
   void on_table_changed(const std::string& reason);
+  /// The answer to the request of take_print_request().
+  void on_printed(const idl::program::ProgramReply& reply);
   /// A service of the machine carries out the cycles of programs.
   void set_cycle_service(bool present) { cycle_service_ = present; }
   /// The answer to the request of take_cycle_request().
@@ -147,6 +155,7 @@ class ChannelCore {
     return table_change_.take_request();
   }
   std::optional<CycleRequest> take_cycle_request() { return cycle_call_.take_request(); }
+  std::optional<idl::program::ProgramRequest> take_print_request() { return printer_.take_request(); }
   /// The variables, when a program or an MDI line has ended since the last time.
   const language::VariableStore* take_variables() {
     return std::exchange(variables_news_, false) ? variables_.get() : nullptr;
@@ -174,7 +183,8 @@ class ChannelCore {
   // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_. No
   // fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
   // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and the state of the
-  // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, skip_, read_,
+  // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, printer_,
+  // parts_at_start_, hold_waits_, skip_, read_,
   // exact_stop_, tapping_, thread_, program_homing_, homed_at_start_, restart_, recovered_, variables_news_,
   // events_. No field, feedback tells it: spindles_. No fields, they are made again: program_path_,
   // manual_path_, program_cache_, bodies_, unusable_, state_.
@@ -282,6 +292,7 @@ class ChannelCore {
   std::string message_of(const language::Command& command) const;
   std::uint8_t role() const;
   void change_table(const language::Command& command);
+  void begin_print(const language::Command& command);
   void count_part();
   void begin_auxiliary(program_execution::AuxiliaryFunction function);
 
@@ -322,6 +333,10 @@ class ChannelCore {
 
   // channel_stream.cpp: setpoints.
   void hold();
+  void hold_for_operator();
+  void hold_when_permitted();
+  bool suppresses(std::uint8_t what) const;
+  double feed_override() const;
   FlowState fill();
   bool motion_at_rest() const;
   void check_exact_stop(std::uint64_t cycle);
@@ -371,6 +386,7 @@ class ChannelCore {
   StreamWriter stream_;
   AuxiliaryHandshake handshake_;
   TableChange table_change_;
+  LinePrinter printer_;
   CycleCall cycle_call_;
   bool cycle_service_ = false;
   ManualMotion manual_;
@@ -402,6 +418,8 @@ class ChannelCore {
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended
   std::uint32_t parts_ = 0;
+  std::optional<std::uint32_t> parts_at_start_;  // of the program, as homed_at_start_
+  bool hold_waits_ = false;                      // a feed hold, until the program permits it (#3004)
   LeftProgram interrupted_;     // by an emergency stop or the end of the control: its line is offered
   AxisValues machine_start_{};  // of the path at rest, in machine coordinates
   PathProgress progress_;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves that are more than a path: those a skip input ends, those a spindle follows, and those that follow
-// one. Values of spindles, behind a wait.
+// one. Values of spindles and signals of the PLC, behind a wait.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "canonical/macro_signal.hpp"
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"
 #include "machine/axes.hpp"
@@ -45,6 +46,10 @@ void ChannelCore::begin_read(const language::Command& command) {
 
 bool ChannelCore::finish_read() {
   if (!read_.value()) return false;
+  if (canonical::is_macro_signal(read_.number())) {
+    begin_auxiliary({program_execution::AuxiliaryKind::E, read_.number(), 0, false});
+    return true;
+  }
   const auto value = *read_.value();
   read_.end();
   flow().value_read(value);

@@ -17,7 +17,7 @@ bus::Json ChannelCore::explicit_state(std::string& why_not) const {
   else if (homing_.active())
     why_not = "the channel homes an axis";
   else if (!link().at_rest() || !handshake_.at_rest() || !table_change_.at_rest() || !cycle_call_.at_rest() ||
-           !manual_.offset_at_rest() || next_parameters_)
+           !printer_.at_rest() || !manual_.offset_at_rest() || next_parameters_)
     why_not = "the channel comes to rest";
   else if (mdi_.frames_kept())
     why_not = "the coordinate frames of the MDI lines since the last program or reset are in no snapshot";

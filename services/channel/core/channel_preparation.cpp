@@ -86,7 +86,7 @@ void ChannelCore::prepare_entry() {
     auto words = words_of(preparation, machine_start_);
     if (program_flow_.auxiliaries().not_repeated() > 0)
       words += (words.empty() ? "" : "; ") + std::to_string(program_flow_.auxiliaries().not_repeated()) +
-               " other M functions before this line are not repeated";
+               " other functions before this line are not repeated";
     event(alarm::search_done, place + (words.empty() ? "ready" : words));
   }
   states_.prepare(std::move(preparation), by_line);

@@ -9,6 +9,7 @@
 #include "language/codes.hpp"
 #include "language/macro_call.hpp"
 #include "machine/alarm_constants.hpp"
+#include "machine/print_file.hpp"
 #include "machine/roles.hpp"
 
 namespace trunnion::channel {
@@ -135,8 +136,16 @@ void ChannelCore::execute(const language::Command& command) {
       begin_thread();
       return;
     case language::CommandKind::table:
+      if (command.table == language::Table::parts) {
+        parts_ = static_cast<std::uint32_t>(command.value);
+        flow().finish_pending();
+        return;
+      }
       change_table(command);
       states_.wait();
+      return;
+    case language::CommandKind::print:
+      begin_print(command);
       return;
     case language::CommandKind::cycle:
       begin_cycle(command);
@@ -181,12 +190,12 @@ void ChannelCore::begin_auxiliary(program_execution::AuxiliaryFunction function)
 }
 
 void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
-  const auto function = handshake_.function();
+  if (read_.active() && !done.failed) return;  // only on_macro_signal() has the value
+  const auto refusal = handshake_.refusal();
   const auto outcome = handshake_.finish(done);
   if (outcome == AuxiliaryHandshake::Outcome::not_open) return;
   if (outcome == AuxiliaryHandshake::Outcome::failed) {
-    event(alarm::auxiliary_refused, place_of(flow().pending()) + ": the PLC did not carry out " + function +
-                                        ". Check the machine, then reset");
+    event(alarm::auxiliary_refused, place_of(flow().pending()) + ": " + refusal);
     stop_activity();
     return;
   }
@@ -211,6 +220,15 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   states_.end_wait(stop || interlock_.holds());
 }
 
+void ChannelCore::on_macro_signal(const idl::plc::MacroSignal& signal) {
+  if (!read_.active() || !read_.value()) return;
+  if (handshake_.finish({signal.channel, signal.number, false}) == AuxiliaryHandshake::Outcome::not_open)
+    return;
+  read_.end();
+  flow().value_read(signal.value);
+  states_.end_wait(interlock_.holds());
+}
+
 // What was only tested, and a program of a command, is no part.
 void ChannelCore::count_part() {
   const bool tested = switches_.dry_run || switches_.auxiliary_lock || lock_.any();
@@ -223,6 +241,38 @@ void ChannelCore::on_table_changed(const std::string& reason) {
     event(alarm::table_refused, place_of(flow().pending()) + ": " + reason);
     stop_activity();
     return;
+  }
+  flow().finish_pending();
+  states_.end_wait(interlock_.holds());
+}
+
+// The command is the newest that the interpreter has given, so the line is its.
+void ChannelCore::begin_print(const language::Command& command) {
+  const bool mdi = states_.is(Activity::mdi);
+  const auto file = machine::print_file(program_name(), number_);
+  const auto* stored = selection_.stored(file);
+  const bool due = printer_.begin(mdi ? LinePrinter::Source::line : LinePrinter::Source::program, file,
+                                  stored == nullptr ? 0 : stored->size, command.sequence,
+                                  flow().interpreter().print_text());
+  if (due)
+    states_.wait();
+  else
+    flow().finish_pending();
+}
+
+// A line that is refused is sent again by cycle start.
+void ChannelCore::on_printed(const idl::program::ProgramReply& reply) {
+  switch (printer_.finish(reply)) {
+    case LinePrinter::Outcome::not_open:
+    case LinePrinter::Outcome::waits:
+      return;
+    case LinePrinter::Outcome::refused:
+      event(alarm::print_refused, place_of(flow().pending()) + ": the line of DPRNT was not written: " +
+                                      printer_.reason() + ". Cycle start writes it again");
+      states_.end_wait(true);
+      return;
+    case LinePrinter::Outcome::done:
+      break;
   }
   flow().finish_pending();
   states_.end_wait(interlock_.holds());

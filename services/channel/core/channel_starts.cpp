@@ -16,7 +16,7 @@ void ChannelCore::configure_flow(ProgramFlow& flow) {
   flow.set_offset(manual_.offset_target());
   tell_references();
   stream_.forget_blocks();
-  progress_.executed.sequence = progress_.reached = 0;
+  progress_.executed.sequence = progress_.reached = progress_.point.sequence = 0;
 }
 
 Answer ChannelCore::start_program(const Entry& entry) {
@@ -40,8 +40,10 @@ Answer ChannelCore::start_program(const Entry& entry) {
   mdi_.forget_frames();
   configure_flow(program_flow_);
   program_flow_.set_tap_in_hole(tap_words(machine_start_));
-  if (restart.sequence == 0) homed_at_start_ = homed_axes();
+  if (restart.sequence == 0) homed_at_start_ = homed_axes(), parts_at_start_ = parts_;
   program_flow_.set_homed(homed_at_start_);
+  program_flow_.set_parts(parts_at_start_.value_or(parts_));
+  printer_.start(states_.in<Interrupted>());
   program_flow_.start(program_path_.trajectory(), text, program_start_, power_on_modal(), *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   interrupted_ = {};
@@ -95,6 +97,7 @@ Answer ChannelCore::start_mdi(const idl::channel::ChannelRequest& request) {
   auto& flow = mdi_.flow();
   configure_flow(flow);
   flow.set_homed(homed_axes());
+  flow.set_parts(parts_);
   mdi_.start(manual_path_.trajectory(), position,
              states_.suspended() != nullptr ? program_flow_.variables() : *variables_);
   // What is wrong with the line is the answer to the operator who typed it.

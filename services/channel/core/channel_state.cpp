@@ -35,6 +35,8 @@ std::string ChannelCore::detail() const {
     return "searching line " + std::to_string(executed.line);
   if (link().resuming() && link().drive_mode() == DriveMode::HELD)
     return "the drive waits for cycle start, or a reset, of the other channels that it has stopped";
+  if (printer_.open()) return "waits for the program service: a line of DPRNT";
+  if (hold_waits_) return "the feed hold waits until the program permits it (#3004)";
   if (cycle_call_.open()) return "waits for the measurement of the kinematics";
   if (waits_for_text()) return "waiting for the text of the program";
   if (running && preparing != nullptr && preparing->approaching) return "approaching the program";
@@ -44,7 +46,7 @@ std::string ChannelCore::detail() const {
   if (running && tap_stopped())
     return "the PLC has stopped the tap: it continues when the PLC lets it; reset leaves it where it is";
   if (running && states_.interpreting() && !tapping_.active() && !thread_.cutting() &&
-      (executed.rapid ? switches_.rapid_override : switches_.feed_override) == 0)
+      (executed.rapid ? switches_.rapid_override : feed_override()) == 0)
     return executed.rapid ? "the rapid override is 0 %" : "the feed override is 0 %";
   if (held && states_.retracing()) return "gone back as far as the path is kept; cycle start: forwards";
   if (const auto* suspended = states_.suspended())

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The channel's setpoints: when it moves, and what it writes in every cycle.
+#include <algorithm>
+
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"
 
@@ -18,9 +20,33 @@ void ChannelCore::set_drive_stopped(const std::string& why) {
 }
 
 void ChannelCore::hold() {
+  hold_waits_ = false;
   manual_.stop();
   // The handwheel comes to rest by itself, and has no path to continue.
   if (!states_.is(Activity::handwheel)) states_.hold();
+}
+
+// The program may keep it from acting on some of its blocks (#3004); alarms, the PLC and a reset do not ask.
+void ChannelCore::hold_for_operator() {
+  if (!states_.advances()) return;
+  hold_waits_ = suppresses(canonical::no_feed_hold);
+  if (!hold_waits_) hold();
+}
+
+void ChannelCore::hold_when_permitted() {
+  if (hold_waits_ && states_.advances() && !suppresses(canonical::no_feed_hold)) hold();
+}
+
+// Of the command that the newest setpoint belongs to, or that is carried out at rest.
+bool ChannelCore::suppresses(std::uint8_t what) const {
+  if (!states_.in<Running>() || !states_.interpreting() || states_.retracing() || !flow().suppression_used())
+    return false;
+  const auto* modal = flow().modals().at(std::max(progress_.point.sequence, progress_.reached));
+  return modal != nullptr && (modal->suppressed & what) != 0;
+}
+
+double ChannelCore::feed_override() const {
+  return suppresses(canonical::no_override) ? 1 : switches_.feed_override;
 }
 
 FlowState ChannelCore::fill() {
@@ -48,6 +74,7 @@ void ChannelCore::advance() {
   advance_homing();
   advance_program_homing();
   apply_parameters();
+  hold_when_permitted();
   if (!states_.busy() || !stream_.idle()) return;
   if (states_.in<Holding>()) {  // the motion has stopped and was executed
     if (states_.abandoned())
@@ -124,9 +151,10 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
     setpoint.at_rest = manual_.wheel_at_rest();
   } else {
     check_exact_stop(cycle);
-    setpoint = trajectory.step(tapping_.active() ? tapping_override() : switches_.feed_override,
+    setpoint = trajectory.step(tapping_.active() ? tapping_override() : feed_override(),
                                switches_.rapid_override, braking() || tap_stopped());
     progress_.point = {setpoint.sequence, setpoint.line, setpoint.fraction};
+    hold_when_permitted();
     if (states_.in<Running>() && states_.retracing() && trajectory.retraced_to_start()) hold();
   }
   const auto* suspended = states_.suspended();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "line_printer.hpp"
 #include "program_execution/tap_in_hole.hpp"
 
 namespace trunnion::channel {
@@ -31,13 +32,14 @@ struct RunningProgram : LeftProgram {
   std::uint32_t tool = 0;        ///< in the spindle
   std::uint64_t tool_since = 0;  ///< cycle from which on the drive's snapshot knows of it
   program_execution::TapInHole tap = {};
+  PrintedLine printed = {};  ///< by the program that is under way, or was
   bool operator==(const RunningProgram&) const = default;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     LeftProgram::fields(self, visit);
     visit("ended", self.ended), visit("parts", self.parts), visit("tool", self.tool);
-    visit("tool_since", self.tool_since), visit("tap", self.tap);
+    visit("tool_since", self.tool_since), visit("tap", self.tap), visit("printed", self.printed);
   }
 };
 

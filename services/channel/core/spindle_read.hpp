@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A value of a spindle that a program reads at rest: of which feedback it is. Which spindles are
-// synchronized.
+// synchronized. A signal of the PLC is asked for behind the same wait.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +26,8 @@ class SpindleRead {
   }
   void end() { number_.reset(); }
   bool active() const { return number_.has_value(); }
+  /// As begin(), while it is active.
+  std::uint32_t number() const { return number_.value_or(0); }
   /// `complete`: the drive has executed the wait.
   void on_feedback(const idl::stream::Feedback& feedback, bool complete) {
     if (active() && complete && !value_) value_ = spindle_value(feedback, *number_);

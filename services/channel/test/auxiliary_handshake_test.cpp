@@ -25,8 +25,15 @@ TEST(AuxiliaryHandshake, NamesTheOpenFunctionAsAProgramWritesIt) {
   EXPECT_EQ(handshake.function(), "E94125");
   handshake.begin({AuxiliaryKind::E, 0, 90, true}, 1);
   EXPECT_EQ(handshake.function(), "EC");
+  handshake.begin({AuxiliaryKind::E, 1003, 0, false}, 1);
+  EXPECT_EQ(handshake.function(), "#1003");
+  EXPECT_EQ(
+      handshake.refusal(),
+      "the PLC did not carry out #1003: its programs do not use the register macro_input_2. Correct the "
+      "program or the PLC, then reset");
   handshake.begin({AuxiliaryKind::S, 0, 2500}, 1);
   EXPECT_EQ(handshake.function(), "S2500");
+  EXPECT_EQ(handshake.refusal(), "the PLC did not carry out S2500. Check the machine, then reset");
 }
 
 TEST(AuxiliaryHandshake, RaisesTheStrobeAndLowersItWhenThePlcHasDoneExactlyThisFunction) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 
+#include "canonical/macro_signal.hpp"
 #include "fake_drive.hpp"
 
 namespace trunnion::channel::testing {
@@ -45,6 +46,7 @@ struct Channel : ::testing::Test {
   std::vector<ChannelEvent> events;
   std::vector<idl::channel::AuxiliaryRequest> auxiliaries;
   bool answer_plc = true;
+  std::uint16_t signals_in = 0, signals_out = 0;  ///< of the PLC: #1032 and #1132
   std::uint64_t cycles_per_round = ~0ull;
   std::shared_ptr<machine::Parameters> parameters = three_axes();
 
@@ -134,12 +136,26 @@ struct Channel : ::testing::Test {
     core->advance();
     if (const auto request = core->take_stream_request()) drive.request(*request);
   }
+  /// As the PLC: what it is asked is done, and a signal is read.
+  void answer(const idl::channel::AuxiliaryRequest& asked) {
+    const bool signal =
+        asked.kind == idl::channel::AuxiliaryKind::E && canonical::is_macro_signal(asked.code);
+    if (signal && !asked.has_value) {
+      const auto word = canonical::is_macro_input(asked.code) ? signals_in : signals_out;
+      core->on_macro_signal({0, asked.number, canonical::macro_value(asked.code, word)});
+      return;
+    }
+    if (signal)
+      signals_out =
+          canonical::with_macro_output(signals_out, asked.code, static_cast<std::int32_t>(asked.value));
+    core->on_auxiliary_done({0, asked.number, false});
+  }
   /// A round from behind the last batch on.
   void end_round() {
     if (const auto auxiliary = core->take_auxiliary();
         auxiliary && auxiliary->kind != idl::channel::AuxiliaryKind::NO_AUXILIARY) {
       auxiliaries.push_back(*auxiliary);
-      if (answer_plc) core->on_auxiliary_done({0, auxiliary->number, false});
+      if (answer_plc) answer(*auxiliary);
     }
     for (auto& event : core->take_events()) events.push_back(event);
     core->on_feedback(drive.run(cycles_per_round));

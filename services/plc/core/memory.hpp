@@ -9,6 +9,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "canonical/macro_signal.hpp"
 #include "contracts/types.hpp"
 #include "plc/machine/machine.hpp"
 #include "plc/translation.hpp"
@@ -47,8 +48,11 @@ struct Handshake {
   double value = 0;
   std::uint64_t cycle = 0;
   std::uint32_t failed = 0;
-  std::uint32_t has_value = 0;  ///< 1: an M with an angle, an S that is a surface speed. Older files have
-                                ///< nothing at its place
+  std::uint32_t has_value = 0;  ///< 1: an M with an angle, an S that is a surface speed, a signal that is set
+                                ///< and not read. Older files have nothing at its place
+
+  /// An E that is no order for a spindle; when it has read a signal, `value` is the signal's.
+  bool is_signal() const { return kind == AuxiliaryKind::E && canonical::is_macro_signal(code); }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "canonical/macro_signal.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
 
@@ -42,7 +43,7 @@ PlcCore::PlcCore() {
         of("s_value"),         of("t_code"),        of("e_order"),        of("e_spindle"),
         of("e_value"),         of("feed_override"), of("rapid_override"), of("spindle_override"),
         of("active_tool"),     of("fin"),           of("fin_failed"),     of("s_surface_speed"),
-        of("s_limit"),         of("s_radius")};
+        of("s_limit"),         of("s_radius"),      of("macro_input"),    of("macro_output")};
     for (const auto address : {channel_symbols_[c].feed_override, channel_symbols_[c].rapid_override,
                                channel_symbols_[c].spindle_override})
       store(memory_.registers, address, 100);  // until the channel publishes its values
@@ -190,6 +191,8 @@ void PlcCore::set_request(const idl::channel::AuxiliaryRequest& request) {
   }
   const bool has_angle = request.kind == AuxiliaryKind::M && request.has_value;
   const bool surface = request.kind == AuxiliaryKind::S && request.surface;
+  const bool sets_signal =
+      request.kind == AuxiliaryKind::E && request.has_value && canonical::is_macro_output(request.code);
   h = {HandshakeState::waiting,
        request.number,
        request.kind,
@@ -197,7 +200,7 @@ void PlcCore::set_request(const idl::channel::AuxiliaryRequest& request) {
        request.value,
        request.cycle,
        0,
-       has_angle || surface ? 1u : 0u};
+       has_angle || surface || sets_signal ? 1u : 0u};
   // Not with the strobe: the handshake, which older files have, has no place for them.
   if (surface) {
     const auto& s = channel_symbols_[request.channel];
@@ -284,18 +287,13 @@ void PlcCore::set_strobes(bool present) {
         store(r, s.s_surface_speed, std::llround(surface));
       }
       if (h.kind == AuxiliaryKind::T) store(r, s.t_code, h.code);
-      if (h.kind == AuxiliaryKind::E) {
-        const auto order = spindle_order(h.code, h.value);
-        store(r, s.e_order, order.order);
-        store(r, s.e_spindle, order.spindle);
-        store(r, s.e_value, order.value);
-      }
+      if (h.kind == AuxiliaryKind::E) begin_order(h, s);
     }
     const bool strobe = h.state == HandshakeState::strobe;
     store(r, s.m_strobe, strobe && h.kind == AuxiliaryKind::M);
     store(r, s.s_strobe, strobe && h.kind == AuxiliaryKind::S);
     store(r, s.t_strobe, strobe && h.kind == AuxiliaryKind::T);
-    store(r, s.e_strobe, strobe && h.kind == AuxiliaryKind::E);
+    store(r, s.e_strobe, strobe && h.kind == AuxiliaryKind::E && !h.is_signal());
   }
 }
 
@@ -304,10 +302,10 @@ void PlcCore::finish() {
     auto& h = memory_.handshakes[c];
     const auto& s = channel_symbols_[c];
     if (h.state != HandshakeState::strobe) continue;
-    // Programs without orders for spindles would never answer one.
-    const bool unknown = h.kind == AuxiliaryKind::E && !structured_.uses(s.e_order.area, s.e_order.index);
-    if (!unknown && plc::load(memory_.registers, s.fin) == 0) continue;
-    h.failed = unknown ? 1u : static_cast<std::uint32_t>(plc::load(memory_.registers, s.fin_failed));
+    const auto failed = failure(h, s);
+    if (!failed) continue;
+    h.failed = *failed ? 1u : 0u;
+    if (h.is_signal()) read_signal(h, s);
     h.state = HandshakeState::done;
     done_.push_back({static_cast<std::uint16_t>(c), h.number, h.failed != 0});
   }

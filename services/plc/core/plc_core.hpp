@@ -118,6 +118,8 @@ class PlcCore {
   std::array<std::uint16_t, message_words> shown_messages() const;
   /// messages.yaml, by their numbers.
   const st::MessageFile& messages() const { return messages_; }
+  /// The signal that this finished function has read; nothing when it is another function.
+  std::optional<idl::plc::MacroSignal> signal_read(const idl::plc::AuxiliaryDone& done) const;
   /// Every finished function: for a restarted process, whose publications are lost.
   std::vector<idl::plc::AuxiliaryDone> all_done() const;
   bool emergency_stop() const;
@@ -131,6 +133,7 @@ class PlcCore {
     Address e_order, e_spindle, e_value;
     Address feed_override, rapid_override, spindle_override, tool, fin, fin_failed;
     Address s_surface_speed, s_limit, s_radius;
+    Address macro_input, macro_output;
   };
   struct ControlSymbols {
     Address start_inhibit, manual_inhibit, sets_overrides, feed_override, rapid_override, spindle_override;
@@ -159,6 +162,7 @@ class PlcCore {
   void drop_forces_of_variables();
   void actuate_switches(const std::vector<double>& position);
   void set_strobes(bool present);
+  void begin_order(const Handshake& handshake, const ChannelSymbols& symbols);
   void find_spindles();
   void take_spindles(const idl::stream::Feedback& feedback);
   void restore_spindles();
@@ -174,6 +178,9 @@ class PlcCore {
   bool spindle_moves(std::size_t spindle) const;
   void set_spindles(idl::plc::Outputs& outputs) const;
   void finish();
+  /// Whether the function has failed; nothing while it is carried out.
+  std::optional<bool> failure(const Handshake& handshake, const ChannelSymbols& symbols) const;
+  void read_signal(Handshake& handshake, const ChannelSymbols& symbols) const;
   bool at_speed(std::size_t spindle) const;
   bool at_standstill(std::size_t channel) const;
 

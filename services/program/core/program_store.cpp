@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "machine/alarm_constants.hpp"
+#include "machine/print_file.hpp"
 #include "machine/roles.hpp"
 #include "text/utf8.hpp"
 
@@ -69,11 +70,12 @@ void ProgramStore::adopt_files(const IndexFile& index) {
       programs_.remove(name);  // the process ended before it could
       removed_.insert(name);
       ++revision_;
-    } else if (row == nullptr || !row->stored || row->next == identity || accepted.contains(name)) {
+    } else if (row == nullptr || !row->stored || row->next == identity || accepted.contains(name) ||
+               (machine::is_print_file(name) && identity_of(*row->stored) != identity)) {
       put(name, text, machine::role::setter);  // who has stored it is not known
       adopted.insert({identity.size, identity.crc32});
     } else {
-      index_[name] = {*row->stored, text.number()};
+      index_[name] = {*row->stored, machine::is_print_file(name) ? std::nullopt : text.number()};
       if (identity_of(*row->stored) != identity) damaged_[name] = damaged_text(name, *row->stored, text);
     }
   }
@@ -81,7 +83,7 @@ void ProgramStore::adopt_files(const IndexFile& index) {
   for (const auto& [name, row] : index.rows) {
     if (!row.stored || index_.contains(name) || removed_.contains(name)) continue;
     ++revision_;
-    if (row.removing)
+    if (row.removing || machine::is_print_file(name))
       removed_.insert(name);
     else if (!adopted.contains({row.stored->size, row.stored->crc32}))  // otherwise it was renamed
       damaged_[name] = "Program '" + name + "' is missing: upload it again, or 'trunnion restore' a backup";
@@ -89,7 +91,9 @@ void ProgramStore::adopt_files(const IndexFile& index) {
 }
 
 void ProgramStore::put(const std::string& name, const TextScan& text, std::uint8_t role) {
-  index_[name] = {{name, ++revisions_[name], text.size(), text.crc32(), text.lines(), role}, text.number()};
+  // What programs print may begin like one.
+  const auto number = machine::is_print_file(name) ? std::nullopt : text.number();
+  index_[name] = {{name, ++revisions_[name], text.size(), text.crc32(), text.lines(), role}, number};
   removed_.erase(name);
   damaged_.erase(name);
   ++revision_;
@@ -260,6 +264,7 @@ std::string ProgramStore::begin(const Request& request, double now) {
 
 std::string ProgramStore::write(const Request& request, Reply& reply, double now) {
   const auto found = uploads_.find({request.client, request.name});
+  if (found == uploads_.end() && machine::is_print_file(request.name)) return print(request, reply);
   if (found == uploads_.end()) return "no upload of '" + request.name + "' exists";
   auto& upload = found->second;
   reply.offset = upload.text.size();
@@ -273,6 +278,51 @@ std::string ProgramStore::write(const Request& request, Reply& reply, double now
   upload.touched = now;
   reply.offset = upload.text.size();
   return "";
+}
+
+// A line at the end of the file. Who has not heard that it was written sends it again for the same place.
+// What a crash leaves of one is adopted at the next start.
+std::string ProgramStore::print(const Request& request, Reply& reply) {
+  const auto& name = request.name;
+  const auto old = index_.find(name);
+  const bool exists = old != index_.end();
+  const std::uint64_t size = exists ? old->second.entry.size : 0, end = request.offset + request.data.size();
+  reply.offset = size;
+  if (request.data.size() > longest_chunk) return "more than " + std::to_string(longest_chunk) + " bytes";
+  if (request.offset < size && end <= size) {
+    std::vector<std::uint8_t> there(request.data.size());
+    if (programs_.read(name, request.offset, there) == there.size() && there == request.data) {
+      reply.entry = old->second.entry;
+      reply.offset = end;
+      return "";
+    }
+  }
+  if (request.offset != size)
+    return "offset " + std::to_string(request.offset) + " is not the end of '" + name + "' at " +
+           std::to_string(size);
+  if (auto reason = in_use(name); !reason.empty()) return reason;
+  check_print_room(name, exists, end);
+  auto& text = printed_[name];
+  if (!exists) text = {}, programs_.create(name);
+  if (exists && identity_of(old->second.entry) != TextIdentity{text.size(), text.crc32()})
+    text = scan(programs_, name);
+  programs_.append(name, size, request.data);
+  text.add(request.data);
+  put(name, text, machine::role::machine_operator);
+  save_index();
+  reply.entry = index_[name].entry;
+  reply.offset = end;
+  return "";
+}
+
+void ProgramStore::check_print_room(const std::string& name, bool exists, std::uint64_t bytes) const {
+  if (bytes > machine::most_print_bytes)
+    throw StorageError("'" + name + "' has " + std::to_string(machine::most_print_bytes / 1'000'000) +
+                       " MB, more is not added: save it with 'trunnion program get', then delete it");
+  if (!exists && index_.size() >= most_programs)
+    throw StorageError("'" + name + "' is not stored: the store holds at most " +
+                       std::to_string(most_programs) + " programs");
+  check_room(name, bytes);
 }
 
 void ProgramStore::check_room(const std::string& name, std::uint64_t bytes) const {

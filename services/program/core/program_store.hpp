@@ -65,12 +65,15 @@ class ProgramStore {
   std::string read(const Request& request, Reply& reply);
   std::string begin(const Request& request, double now);
   std::string write(const Request& request, Reply& reply, double now);
+  std::string print(const Request& request, Reply& reply);
   std::string commit(const Request& request, Reply& reply);
   std::string abort(const Request& request);
   std::string remove(const Request& request);
   std::string rename(const Request& request, Reply& reply);
   /// Throws StorageError when there is no room for `bytes` more of an upload that becomes the program `name`.
   void check_room(const std::string& name, std::uint64_t bytes) const;
+  /// The same when the file `name` of DPRNT would have `bytes`.
+  void check_print_room(const std::string& name, bool exists, std::uint64_t bytes) const;
   std::string in_use(const std::string& name) const;
   std::string find(const Request& request, Reply& reply);
   void put(const std::string& name, const TextScan& text, std::uint8_t role);
@@ -93,6 +96,7 @@ class ProgramStore {
   storage::Kept index_found_;
   std::uint64_t revision_ = 0;  ///< of the list
   std::map<UploadKey, Upload> uploads_;
+  std::map<std::string, TextScan> printed_;  ///< of files of DPRNT: their texts so far
   std::uint64_t upload_count_ = 0;
   bool changed_ = true;
 };

@@ -107,6 +107,11 @@ TEST(Summary, ATableThatCountsModulo360GoesOnOverTheFullTurn) {
   EXPECT_EQ(c_of("G91 G0 C36000000\nG90 C90\n"), "C        0.0000 .. 36000090.0000 (machine)\n");
 }
 
+TEST(Summary, CountsTheLinesThatAreWrittenToAFile) {
+  EXPECT_THAT(summary_of("G0 X1\nDPRNT[A]\nDPRNT[B]\nM30\n"), HasSubstr("prints   2 lines of DPRNT\n"));
+  EXPECT_THAT(summary_of("G0 X1\nM30\n"), testing::Not(HasSubstr("DPRNT")));
+}
+
 TEST(Summary, AlarmNamesFileLineColumnAndNumber) {
   EXPECT_THAT(summary_of("G0 X1\nG0 X2 Q\n"), HasSubstr("part.nc:2:7: 1005: letter without a number: Q\n"));
   EXPECT_THAT(summary_of("M98 P2\nM30\nO2\nG77\nM99"), HasSubstr("part.nc:4:1: 1101: unknown G code: G77\n"

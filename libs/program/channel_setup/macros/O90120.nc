@@ -12,7 +12,7 @@ IF [#4005 EQ 93] THEN #3000=70 (G12 and G13 need G94 or G95)
 IF [#12 EQ #0] THEN #12=1
 IF [[#12 LT 1] || [#12 NE FIX[#12]]] THEN #3000=71 (G12 and G13: L must be a whole number from 1)
 IF [#7 NE #0] THEN D#7
-#27=#4207
+#27=#4199
 IF [#27 EQ #0] THEN #3000=72 (G12 and G13: the tool D has no radius)
 IF [#4 LE #27] THEN #3000=73 (G12 and G13: the radius I must be above that of the cutter)
 IF [#6 EQ #0]

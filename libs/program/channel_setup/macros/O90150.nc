@@ -15,7 +15,7 @@ IF [#9 LE 0] THEN #3000=86 (P90150 needs the feed F)
 IF [#8 EQ #0] THEN #8=#9
 IF [#6 LT 0] THEN #3000=87 (P90150: the allowance K must not be below 0)
 IF [#7 NE #0] THEN D#7
-#27=#4207
+#27=#4199
 IF [#27 LE 0] THEN #3000=88 (P90150: the tool D has no radius)
 (#1 #2: half the outermost path along X and Y, #5: radius of its corners)
 #1=#24/2-#27-#6

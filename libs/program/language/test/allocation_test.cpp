@@ -84,6 +84,19 @@ TEST(Allocation, NoneHoweverLongTheProgramIs) {
   EXPECT_EQ(interpreter.blocks(), 1000000u);
 }
 
+TEST(Allocation, NoneForALineThatIsPrinted) {
+  TestMachine machine;
+  StringSource source("#1=12.5\nDPRNT[X#1[53] text #1[09]]\nM30\n");
+  Interpreter interpreter(machine);
+  Command command;
+  const std::size_t before = allocations;
+  interpreter.start(source, {}, {});
+  Step step = Step::command;
+  while (step == Step::command || step == Step::working) step = interpreter.next(command);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(step, Step::end) << interpreter.alarm().text.data();
+}
+
 TEST(Allocation, NoneForAnAlarm) {
   TestMachine machine;
   StringSource source("G0 X1\nG77\n");

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"bytes_that_are_no_utf8", "G0 X1\nX2 \xff\n", AlarmNumber::not_utf8, 2, 4},
         Case{"line_of_a_megabyte", "G0 X1\n" + std::string(std::size_t{1} << 20, 'X') + "\nX2\n",
              AlarmNumber::line_too_long, 2, 1},
-        Case{"system_variable_of_hnc8", "G0 X1\n#1=#1000\n", AlarmNumber::variable_unknown, 2, 4},
+        Case{"system_variable_of_hnc8", "G0 X1\n#1=#1200\n", AlarmNumber::variable_unknown, 2, 4},
         Case{"system_variable_of_hnc8_written", "G0 X1\n#1193=2\n", AlarmNumber::variable_unknown, 2, 1},
         Case{"system_variable_of_hnc8_by_number", "#1=1000\nG0 X#[#1+41]\n", AlarmNumber::variable_unknown, 2,
              5}),

@@ -74,7 +74,7 @@ void interpret(const std::uint8_t* data, std::size_t size, ProgramDialect dialec
   machine.axis_mask = 0b000111111;
   machine.programs["O0009"] = std::make_unique<StringSource>("G91 X1\n#100=#100+1\nM99\n");
   machine.programs["O0009.1"] = std::make_unique<StringSource>("G91 G1 F100 XL0\nL100=L100+1 G77 H8\n");
-  machine.programs["O90120"] = std::make_unique<StringSource>("D#7\nG#[#10-10] X[#4-#4207] I#20 F#9\nM99\n");
+  machine.programs["O90120"] = std::make_unique<StringSource>("D#7\nG#[#10-10] X[#4-#4199] I#20 F#9\nM99\n");
   machine.programs["O90370"] = std::make_unique<StringSource>("G31 P#30 Z#26 F#29\n#[2000+#11]=#5063\nM99\n");
   machine.programs["O90800"] = std::make_unique<StringSource>(
       "IF [#2 EQ 0] THEN G69\nG68.3 X#5 Y#6 Z#7 I#8 J#9 K#10 P4\nG53.1\nM99\n");
@@ -82,6 +82,12 @@ void interpret(const std::uint8_t* data, std::size_t size, ProgramDialect dialec
       "%1007\nWHILE #1 LT #0\n#1=#1+1\nX#1\nENDW\nM99\n%1010\nIF AR[#7] EQ 0\nM99 P5\nENDIF\nG1007 "
       "A[#7]\nM99\n");
   machine.cycle_m_codes[3] = 130;
+  machine.calls.g = {150};
+  machine.calls.m = {70};
+  machine.calls.m_subprograms = {60};
+  machine.programs["O9010"] = std::make_unique<StringSource>("G91 X#24\nDPRNT[X#24[53] #16[10]]\nM99\n");
+  machine.programs["O9020"] = std::make_unique<StringSource>("M60\nM70\nM98 P9 H2 L#1\nM99\n");
+  machine.programs["O9001"] = std::make_unique<StringSource>("N1 #100=BCD[#100]\nG65 P9010 X1\nM99\n");
   const InterpreterOptions options{static_cast<SkipLevels>(data[0] >> 6), true};
   Stepper whole(machine, text, 0, options);
   Stepper pieces(machine, text, 1 + (data[0] & 63u), options);
@@ -98,6 +104,8 @@ void interpret(const std::uint8_t* data, std::size_t size, ProgramDialect dialec
       check(a);
       require(a.kind == b.kind && a.line == b.line && a.sequence == b.sequence && a.target == b.target);
       require(a.sequence == static_cast<std::uint32_t>(i + 1));
+      require(a.kind != CommandKind::print ||
+              whole.interpreter.print_text() == pieces.interpreter.print_text());
       continue;
     }
     if (step == Step::alarm) {

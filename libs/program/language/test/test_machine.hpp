@@ -45,14 +45,18 @@ struct TestMachine : Environment {
   std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
   std::map<std::string, std::unique_ptr<TextSource>, std::less<>> programs;
   std::array<std::uint16_t, 8> cycle_m_codes{};
+  CodeCalls calls;
+  bool blanks = true;  // of DPRNT
   std::array<canonical::RotaryWay, axis_count> ways{};
   std::optional<MFunctions> functions;  // nothing: every M code may stand
   DwellPoint point = DwellPoint::refused;
   TwoToolWords two_tools = TwoToolWords::refused;
   ProgramDialect dialect = ProgramDialect::iso;
   NameDialects names;
-  bool radius_offsets = false;               // of Haas programs
-  std::map<std::uint32_t, double> external;  // parameters of the NUM dialect
+  bool radius_offsets = false;                 // of Haas programs
+  std::map<std::uint32_t, double> external;    // parameters of the NUM dialect
+  std::map<std::uint32_t, double> parameters;  // PRM
+  bool by_axis = false;                        // #2501 is a work offset
   AngleMCodes angle_codes{19, -1, -1, -1};
 
   AxisValues work_offset(std::uint8_t index) const override {
@@ -99,6 +103,11 @@ struct TestMachine : Environment {
   std::optional<ProgramDialect> dialect_by_name(std::string_view name) const override {
     return names.of(name);
   }
+  std::optional<double> parameter(std::uint32_t number) const override {
+    const auto found = parameters.find(number);
+    return found == parameters.end() ? std::nullopt : std::optional(found->second);
+  }
+  bool offsets_by_axis() const override { return by_axis; }
   std::optional<double> external_parameter(std::uint32_t number) const override {
     const auto found = external.find(number);
     return found == external.end() ? std::nullopt : std::optional(found->second);
@@ -176,6 +185,8 @@ struct TestMachine : Environment {
     return found == programs.end() ? nullptr : found->second.get();
   }
   std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes.at(index); }
+  CodeCalls code_calls() const override { return calls; }
+  bool prints_blanks() const override { return blanks; }
 
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override {
     const double a = -tip[A] * std::numbers::pi / 180;
@@ -266,9 +277,9 @@ struct SlowSource : TextSource {
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid",   "line",  "arc",  "dwell",  "T",    "S",
-                                          "M",       "frame", "end",  "skip",   "tap",  "table",
-                                          "message", "cycle", "home", "thread", "read", "order"};
+  static constexpr const char* kinds[] = {"rapid", "line",   "arc",  "dwell", "T",     "S",       "M",
+                                          "frame", "end",    "skip", "tap",   "table", "message", "cycle",
+                                          "home",  "thread", "read", "order", "print"};
   const auto number = [](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
@@ -343,6 +354,8 @@ inline std::string brief(const Command& command) {
       break;
     case CommandKind::spindle_order:
       text += " " + std::to_string(command.number) + " " + number(command.value);
+      break;
+    case CommandKind::print:
       break;
     case CommandKind::message:
     case CommandKind::cycle:

@@ -98,12 +98,12 @@ TEST(SystemVariables, RadiusOfTheActiveDHasItsWear) {
   TestMachine machine;
   machine.tools[1] = {50, 0, 5, 0.25};
   machine.tools[2] = {50, 0, std::nullopt, 0};
-  EXPECT_THAT(values(machine, "D1", {"#4207", "[#4207 EQ #0]"}), ElementsAre(5.25, 0));
-  EXPECT_THAT(values(machine, "G0 X1", {"#4207", "[#4207 EQ #0]"}), ElementsAre(0, 0)) << "no D: 0";
-  EXPECT_THAT(values(machine, "D2", {"[#4207 EQ #0]"}), ElementsAre(1)) << "vacant";
-  EXPECT_THAT(values(machine, "G20 D1", {"#4207*25.4"}), ElementsAre(testing::DoubleEq(5.25)));
+  EXPECT_THAT(values(machine, "D1", {"#4199", "[#4199 EQ #0]"}), ElementsAre(5.25, 0));
+  EXPECT_THAT(values(machine, "G0 X1", {"#4199", "[#4199 EQ #0]"}), ElementsAre(0, 0)) << "no D: 0";
+  EXPECT_THAT(values(machine, "D2", {"[#4199 EQ #0]"}), ElementsAre(1)) << "vacant";
+  EXPECT_THAT(values(machine, "G20 D1", {"#4199*25.4"}), ElementsAre(testing::DoubleEq(5.25)));
   machine.cutter.wear_sign = -1;
-  EXPECT_THAT(values(machine, "D1", {"#4207"}), ElementsAre(4.75));
+  EXPECT_THAT(values(machine, "D1", {"#4199"}), ElementsAre(4.75));
 }
 
 TEST(SystemVariables, PositionOfAnAxisThatTheChannelDoesNotHaveIsVacant) {

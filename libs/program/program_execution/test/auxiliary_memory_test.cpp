@@ -59,6 +59,16 @@ TEST(AuxiliaryMemory, GivesTheFunctionsThatAddUpToTheStateInOneSequence) {
   EXPECT_EQ(codes(memory.functions()), (Codes{{S, 0}, {M, 5}, {M, 9}}));
 }
 
+TEST(AuxiliaryMemory, CountsOrdersAndSignalsThatItDoesNotRepeat) {
+  AuxiliaryMemory memory;
+  Command signal;
+  signal.kind = CommandKind::spindle_order;
+  signal.number = 1100;
+  memory.pass(signal);
+  EXPECT_EQ(memory.not_repeated(), 1u);
+  EXPECT_TRUE(memory.functions().empty());
+}
+
 TEST(AuxiliaryMemory, KeepsTheAngleOfM19UntilAnotherFunctionOfTheSpindle) {
   AuxiliaryMemory memory;
   auto orient = auxiliary(19);

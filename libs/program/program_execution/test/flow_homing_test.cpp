@@ -61,7 +61,8 @@ TEST_F(Flow, AValueOfASpindleIsReadBehindAWaitAtRestAndARestartReadsItAgain) {
   line.line = 6;
   start(program, line);
   EXPECT_EQ(run(), FlowState::alarm);
-  EXPECT_EQ(flow.alarm_text(), "6: line 3 reads the state of a spindle, and what follows depends on it");
+  EXPECT_EQ(flow.alarm_text(),
+            "6: line 3 reads a spindle or a signal of the PLC, and what follows depends on it");
 }
 
 // The reference position is 0, and the drive has found X at 3.25.

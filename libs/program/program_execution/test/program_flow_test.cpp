@@ -60,6 +60,19 @@ TEST_F(Flow, StopsMotionAtACommandForTheCallerAndReadsNothingBehindItBeforeItIsD
   EXPECT_EQ(functions[0].code, 8u);
 }
 
+TEST_F(Flow, ALineThatIsPrintedHasItsTextUntilTheCallerIsDone) {
+  start("G90 F6000\nG1 X10\n#1=3\nDPRNT[A#1[10]]\nG1 X20\nDPRNT[B]\nM30\n");
+  EXPECT_EQ(run(), FlowState::command);
+  EXPECT_EQ(x(), 10);
+  ASSERT_EQ(flow.pending().kind, CommandKind::print);
+  EXPECT_EQ(flow.fill(false), FlowState::command);
+  EXPECT_EQ(flow.interpreter().print_text(), "A 3");
+  flow.finish_pending();
+  EXPECT_EQ(run(), FlowState::command);
+  EXPECT_EQ(x(), 20);
+  EXPECT_EQ(flow.interpreter().print_text(), "B");
+}
+
 TEST_F(Flow, WaitsForTextThatHasNotArrivedAndForNothingElse) {
   SlowText slow("G90 F6000\nG1 X10\nG1 X20\n");
   start(slow);

@@ -134,6 +134,19 @@ TEST_F(Reading, SpindlesAreHomedAndSynchronized) {
   EXPECT_EQ(read("WHILE #4812 EQ 1\nENDW\nM30\n", options), Ending::idle);
 }
 
+TEST_F(Reading, SignalsOfThePlcAreZeroAndThenEitherSoThatAProgramThatWaitsGoesOn) {
+  EXPECT_EQ(
+      read("WHILE #1000 EQ 0\nENDW\nWHILE #1000 EQ 1\nENDW\nG0 X1\nIF #1003 EQ 1 GOTO 9\n#1100=1\nN9 M30\n"),
+      Ending::end);
+  // 0, 1 for the first loop; 0 for the second; behind the move 0 again.
+  using language::CommandKind;
+  const CommandKind kinds[] = {CommandKind::read,  CommandKind::read, CommandKind::read,
+                               CommandKind::rapid, CommandKind::read, CommandKind::spindle_order,
+                               CommandKind::end};
+  ASSERT_EQ(commands.size(), std::size(kinds));
+  for (std::size_t i = 0; i < commands.size(); ++i) EXPECT_EQ(commands[i].kind, kinds[i]) << i;
+}
+
 TEST_F(Reading, EndsWhereAProgramWouldRepeatForEver) {
   EXPECT_EQ(read("G90 F100\nN1 G0 X1\nX2\nGOTO 1\n"), Ending::repeats);
   EXPECT_EQ(reader->repeats_from(), 2u);

@@ -239,6 +239,33 @@ TEST(Answers, AddressesTheRecordedReplyToWhoAsksNow) {
   EXPECT_FALSE(answers.answer(stored(topics::program_request, request, 3))) << "nobody asked for that";
 }
 
+TEST(Answers, ALineOfDprntIsAnsweredAsInTheRecordingOneAfterTheOther) {
+  StoredRecording recording;
+  idl::program::ProgramRequest request;
+  request.client = 11;
+  request.operation = idl::program::Operation::WRITE;
+  request.name = "DPRNT-a.nc.txt", request.data = {'X', '\n'};
+  idl::program::ProgramReply reply;
+  reply.client = 11;
+  for (const bool accepted : {false, true}) {
+    request.number = ++reply.number;
+    reply.accepted = accepted;
+    recording.messages.push_back(stored(topics::program_request, request, 2 * reply.number));
+    recording.messages.push_back(stored(topics::program_reply, reply, 2 * reply.number + 1));
+  }
+  Answers answers(recording);
+  request.client = 99;
+  for (const bool accepted : {false, true, true}) {
+    const auto bytes = answers.answer(stored(topics::program_request, request, 9));
+    idl::program::ProgramReply answer;
+    ASSERT_TRUE(bytes && bus::decode(*bytes, answer));
+    EXPECT_EQ(answer.accepted, accepted);
+    EXPECT_EQ(answer.client, 99u);
+  }
+  request.name = "a.nc";
+  EXPECT_FALSE(answers.answer(stored(topics::program_request, request, 9))) << "an upload";
+}
+
 TEST(RaisedAlarms, AreThoseOfTheServiceThatWereActive) {
   idl::service::Alarm alarm;
   alarm.source = "gantry", alarm.number = 120, alarm.part = 3, alarm.text = "off", alarm.active = true;

@@ -131,6 +131,7 @@ int main(int argc, char** argv) {
   all.add(topics::channel_reply);
   all.add(topics::auxiliary_request);
   all.add(topics::auxiliary_done);
+  all.add(topics::macro_signal);
   all.add(topics::cycle_request);
   all.add(topics::cycle_reply);
   all.add(topics::plc_outputs);
