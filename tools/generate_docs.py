@@ -237,12 +237,12 @@ def macros():
             "channel 1 and higher the name has `-1` and so on before `.txt`. `trunnion program list`, `get` and `delete`, the page and `/api/programs` "
             "treat it as a program. `#1[53]` is the value of a variable with 5 places before the point and 3 behind it, rounded; 9 places together at "
             "most. There is no point without places behind it, and a number with more digits before it grows. With parameter 04c721 = 1 the sign has a "
-            "place, and blanks stand for a sign or digits that are not there; with 0 they are left out. `*` is a blank, every other character is printed as it "
+            "place, and blanks take the places of a sign or digits that are not there; with 0 they are left out. `*` is a blank, every other character is printed as it "
             "is written. A line has at most 200 bytes.", "",
-            "A line is printed where the program passes it, with the axes at rest, once: not in the search for a start line, on the way back (retrace), nor "
+            "A line is printed where the program passes it, with the axes at rest, once: not in the search for a start line, in a retrace, nor "
             "again when a program is continued after an interruption or by another process. With cutter radius compensation it is alarm 1707. When the "
             "line cannot be written (the disk is full, the file has 4 MB) the program is held with alarm 1521; cycle start writes it again, and a reset ends "
-            "the program. While the program service is away the program waits. Files grow until somebody deletes them. After a power failure the last line may be incomplete. "
+            "the program. While the program service is away the program waits. Files grow until the operator deletes them. After a power failure the last line may be incomplete. "
             "`BPRNT` (binary numbers) is alarm 1513.", "",
             "## Calls", "",
             "`M98 P_ H_ L_` calls a subprogram, which shares the local variables of its caller. It begins at the block with the N of H (or Q), without it at "
