@@ -246,7 +246,7 @@ def macros():
             "`BPRNT` (binary numbers) is alarm 1513.", "",
             "## Calls", "",
             "`M98 P_ H_ L_` calls a subprogram, which shares the local variables of its caller. It begins at the block with the N of H (or Q), without it at "
-            "its top; beside G43 H is the tool length. L0 calls nothing. `M198` is the same: there is one store of programs. "
+            "its top; beside G43 H is the tool length. `M98 Q_` without P begins at that N of the same program, which ends with M99 there. L0 calls nothing. `M198` is the same: there is one store of programs. "
             "Without L, and when no program has that number, the "
             "digits before the last four count the calls, as in Fanuc's old form: `M98 P60020` calls O0020 six times. `G65 P_ L_` and `G66 P_ L_` "
             "call a macro. `G1000` .. `G1999` and the M codes of parameters 010170 to 010177 call a cycle of `USERDEF.CYC`. Both have local variables "

@@ -312,13 +312,19 @@ Fault BlockExecutor::set_call(Flow& flow) {
     flow.counted = true;
     return {};
   }
-  if (!words.has('P')) return {AlarmNumber::missing_word, flow.offset, needs('P')};
+  // Q alone is a sequence number of this program, as on Fanuc 30i.
+  const bool label_alone = !words.has('P') && words.has('Q') && !words.used('Q');
+  const char number = label_alone ? 'Q' : 'P';
+  flow.local = flow.local || label_alone;
+  if (!words.has(number)) return {AlarmNumber::missing_word, flow.offset, needs('P')};
   // P and L have one meaning each: a dwell or turns in the same block leave none for the call.
-  for (const char letter : {'P', 'L'}) {
+  for (const char letter : {number, 'L'}) {
     if (words.has(letter) && words.used(letter)) return {AlarmNumber::unused_word, words.offset(letter)};
   }
-  if (const Fault fault = words.whole_number('P', 1, 99999999, flow.subprogram)) return fault;
-  if (const Fault fault = set_label(flow)) return fault;
+  if (const Fault fault = words.whole_number(number, 1, 99999999, flow.subprogram)) return fault;
+  if (!label_alone) {
+    if (const Fault fault = set_label(flow)) return fault;
+  }
   if (!words.has('L')) return {};
   flow.counted = true;
   const Fault fault = words.whole_number('L', 0, highest_repetition, flow.repetitions);

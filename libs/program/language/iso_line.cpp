@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/iso_line.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -168,18 +169,16 @@ bool nothing_follows(Scanner scanner) {
 }
 
 std::size_t find_nested_comment(std::string_view line) {
-  std::size_t inner = std::string_view::npos;
-  bool comment = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '(') {
-      if (comment && inner == std::string_view::npos) inner = i;
-      comment = true;
-    } else if (line[i] == ')') {
-      if (!comment) return inner;
-      comment = false;
-    } else if (line[i] == ';' && !comment) {
-      break;
+  for (Scanner scanner(line); !scanner.at_end() && scanner.peek() != ';';) {
+    if (scanner.peek() != '(') {
+      scanner.advance();
+      continue;
     }
+    const std::size_t begin = scanner.offset();
+    if (!scanner.skip_comment()) break;
+    const auto comment = line.substr(begin, scanner.offset() - begin);
+    const bool open = std::ranges::count(comment, '(') > std::ranges::count(comment, ')');
+    if (open && scanner.rest().find(')') != std::string_view::npos) return begin + comment.find('(', 1);
   }
   return std::string_view::npos;
 }

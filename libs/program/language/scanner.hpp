@@ -89,10 +89,18 @@ class Scanner {
     return decimal;
   }
   /// Past the closing parenthesis; false when there is none.
+  /// The first ) ends it, with further ones behind blanks that close comments within it: (A (B)).
   bool skip_comment() {
-    while (p_ != end_ && *p_ != ')') ++p_;
+    int within = -1;
+    for (; p_ != end_ && *p_ != ')'; ++p_) within += *p_ == '(' ? 1 : 0;
     if (p_ == end_) return false;
     ++p_;
+    for (; within > 0; --within) {
+      const char* behind = p_;
+      while (behind != end_ && is_blank(*behind)) ++behind;
+      if (behind == end_ || *behind != ')') break;
+      p_ = behind + 1;
+    }
     return true;
   }
 

@@ -99,6 +99,15 @@ TEST(SubprogramCall, BeginsAtASequenceNumberInEachRepetition) {
               ElementsAre("rapid Y1", "rapid X4 Y1", "end 30"));
 }
 
+TEST(SubprogramCall, QAloneIsASequenceNumberOfThisProgram) {
+  TestMachine machine;
+  EXPECT_THAT(stream(run(machine, "G0 Y1\nM98 Q20 L2\nX3\nM30\nN20 G91 X1\nG90\nM99\n")),
+              ElementsAre("rapid Y1", "rapid X1 Y1", "rapid X2 Y1", "rapid X3 Y1", "end 30"));
+  const auto result = run(machine, "M98 Q20\nM30\nO30\nN20 X1\nM99\n");
+  EXPECT_EQ(result.alarm.number, AlarmNumber::label_missing);
+  EXPECT_EQ(result.alarm.column, 5u);
+}
+
 TEST(SubprogramCall, ASequenceNumberOfAnotherProgramIsNotOfThisOne) {
   TestMachine machine;
   const auto result = run(machine, "G0 Y1\nM98 P30 H2\nM30\nO30\nX9\nM99\nO31\nN2 X5\nM99\n");

@@ -161,6 +161,9 @@ TEST(ProgramText, CommentsOfEveryKindAndLength) {
   EXPECT_THAT(stream_of("(" + std::string(16000, 'x') + ") X1\n"), ElementsAre("rapid X1", "end 0"));
   EXPECT_THAT(stream_of("(" + std::string(17000, 'x') + ") X1\n"), ElementsAre("alarm 1001 1:1"));
   EXPECT_THAT(stream_of("X1 (A ( B) Y1\n"), ElementsAre("rapid X1 Y1", "end 0")) << "one ) ends it";
+  EXPECT_THAT(stream_of("X1 (A (B)) Y1 ((C) (D) )\n"), ElementsAre("alarm 1174 1:16"));
+  EXPECT_THAT(stream_of("X1 (A (B)) Y1 ((C ((D) ) )\n"), ElementsAre("rapid X1 Y1", "end 0"));
+  EXPECT_THAT(stream_of("X1 (A (B) ) Y1 ) Z1\n"), ElementsAre("alarm 1003 1:16")) << "of no comment";
 }
 
 TEST(ProgramText, G53WithoutAnAxisMovesNothing) {
