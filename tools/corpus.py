@@ -27,6 +27,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 TABLE = os.path.join(ROOT, 'integration_tests', 'corpus', 'programs.csv')
 PATHS = os.path.join(ROOT, 'tools', 'linuxcnc_path.py')
 COLUMNS = ['sha256', 'repository', 'commit', 'path', 'called_by', 'control', 'machine', 'dialect', 'expected', 'verdict', 'reason']
+PYTHON = '/usr/bin/python3'  # that of the package linuxcnc-uspace
 SHARE = 0.95
 SECONDS = 20  # for one program
 PLACE = 1e-6  # mm, within which two paths agree
@@ -40,11 +41,10 @@ MACHINES = {
     'ac-table': {'of': 'ac-table'},
     'bc-table': {'of': 'bc-table'},
     'ab-table': {'of': 'ac-table', 'letters': {'040006': '040005'}},
-    'lathe': {'of': 'lathe'},
+    'lathe': {'of': 'lathe', 'tools': 99},
 }
 FUNCTIONS = '"040944": 3 4 5 19; 6; 7 8 9'
 M_CODES = [code for code in range(10, 1000) if code not in (19,)]
-TOOLS = range(1, 100)
 
 
 class Row(dict):
@@ -145,7 +145,8 @@ def make_machine(name, directory, codes):
     with open(os.path.join(source, 'parameters.yaml'), encoding='utf-8') as file:
         parameters = list(parameters_of(file.read().splitlines(), letters))
     texts['parameters.yaml'] = '\n'.join([*parameters, f'{FUNCTIONS}; {" ".join(ranges_of(codes))}', ''])
-    texts['tools.yaml'] = ''.join(f'- {{number: {tool}, length: 0, radius: 0, name: T{tool}}}\n' for tool in TOOLS)
+    texts['tools.yaml'] = ''.join(f'- {{number: {tool}, length: 0, radius: 0, name: T{tool}}}\n' 
+                                   for tool in range(1, wide.get('tools', 999) + 1))
     for file_name, text in texts.items():
         with open(os.path.join(folder, file_name), 'w', encoding='utf-8') as file:
             file.write(text)
@@ -244,30 +245,41 @@ def share_of(rows, verdicts):
     return sum(verdicts[row.sha256][0] == 'pass' for row in wanted), len(wanted)
 
 
-def points_of(text):
-    """[(is rapid, end, centre or None)] of lines of JSON with axes in mm and deg; moves without a way are left out."""
-    points, last = [], None
-    for line in text.splitlines():
-        move = json.loads(line)
-        if 'error' in move:
-            return None
+def arc_of(move):
+    """(centre within the plane, direction, turns) of an arc; None of a line."""
+    if not move.get('center'):
+        return None
+    centre = [value for axis, value in zip('XYZ', move['center']) if axis in move['plane']]
+    return centre, move['cw'], move['turns']
+
+
+def moves_of(text):
+    """[(end in mm and deg, arc)] of lines of JSON, without lines that have no length."""
+    moves, last = [], None
+    for move in map(json.loads, text.splitlines()):
         if move.get('end'):
             continue
-        end = tuple(move['mcs'].get(axis, 0.0) for axis in 'XYZABC')
-        centre = tuple(move['center']) if move.get('center') else None
-        if end != last or centre:
-            points.append((move['kind'] == 'rapid', end, centre))
+        end = [move['mcs'].get(axis, 0.0) for axis in 'XYZABC']
+        if move.get('center') or last is None or not near(end, last):
+            moves.append((end, arc_of(move)))
         last = end
-    return points
+    return moves
+
+
+def near(one, other):
+    return all(abs(a - b) <= PLACE for a, b in zip(one, other))
+
+
+def same_move(one, other):
+    if not near(one[0], other[0]) or (one[1] is None) != (other[1] is None):
+        return False
+    return one[1] is None or (near(one[1][0], other[1][0]) and one[1][1:] == other[1][1:])
 
 
 def differs(ours, theirs):
-    """The index of the first move that ends elsewhere or turns about another centre, or None."""
-    def near(one, other):
-        return all(abs(a - b) <= PLACE for a, b in zip(one, other))
-
+    """The index of the first move that is another one, or None."""
     for index, (one, other) in enumerate(zip(ours, theirs)):
-        if not near(one[1], other[1]) or bool(one[2]) != bool(other[2]) or (one[2] and not near(one[2], other[2])):
+        if not same_move(one, other):
             return index
     return None if len(ours) == len(theirs) else min(len(ours), len(theirs))
 
@@ -275,13 +287,16 @@ def differs(ours, theirs):
 def compare_paths(trunnion, rows, corpus, folders):
     """Paths against those of LinuxCNC's interpreter, where that reads the program too."""
     counts = collections.Counter()
+    if run([PYTHON, '-c', 'import gcode'])[0] != 0:
+        print('LinuxCNC: skipped: the package linuxcnc-uspace is not installed')
+        return
     for row in rows:
         ours = run(command_of(trunnion, row, corpus, folders, '--jsonl'))
-        theirs = run(['/usr/bin/python3', PATHS, row.file(corpus)])
+        theirs = run([PYTHON, PATHS, row.file(corpus)])
         if ours[0] != 0 or theirs[0] != 0:
             counts['not read by both'] += 1
             continue
-        one, other = points_of(ours[1]), points_of(theirs[1])
+        one, other = moves_of(ours[1]), moves_of(theirs[1])
         at = differs(one, other)
         counts['the same path' if at is None else 'another path'] += 1
         if at is not None:
