@@ -145,7 +145,7 @@ def make_machine(name, directory, codes):
     with open(os.path.join(source, 'parameters.yaml'), encoding='utf-8') as file:
         parameters = list(parameters_of(file.read().splitlines(), letters))
     texts['parameters.yaml'] = '\n'.join([*parameters, f'{FUNCTIONS}; {" ".join(ranges_of(codes))}', ''])
-    texts['tools.yaml'] = ''.join(f'- {{number: {tool}, length: 0, radius: 0, name: T{tool}}}\n' 
+    texts['tools.yaml'] = ''.join(f'- {{number: {tool}, length: 0, radius: 0, name: T{tool}}}\n'
                                    for tool in range(1, wide.get('tools', 999) + 1))
     for file_name, text in texts.items():
         with open(os.path.join(folder, file_name), 'w', encoding='utf-8') as file:
@@ -212,9 +212,8 @@ def judge(trunnion, row, corpus, folders):
 
 
 def kind_of(reason):
-    """A reason without its place: the number and text of the alarm up to a name."""
-    text = re.sub(r'^(\S+?:)?\d+:(\d+:)? ', '', reason)
-    return re.sub(r'(: ).*', r'\1', text, count=0) if text.count(': ') < 2 else text
+    """A reason without its place."""
+    return re.sub(r'^(\S+?:)?\d+:(\d+:)? ', '', reason)
 
 
 def print_reasons(rows, verdicts):
@@ -225,7 +224,7 @@ def print_reasons(rows, verdicts):
         if verdict == 'refused':
             kinds[kind_of(reason)].append(row)
     for kind, of_kind in sorted(kinds.items(), key=lambda entry: (-len(entry[1]), entry[0])):
-        print(f'{len(of_kind):4} {kind[:100]:100} {of_kind[0].sha256[:12]} {verdicts[of_kind[0].sha256][1][:12]}')
+        print(f'{len(of_kind):4} {kind[:100]:100} {of_kind[0].sha256[:12]}:{verdicts[of_kind[0].sha256][1].split(" ")[0]}')
 
 
 def worse(rows, verdicts):
@@ -239,9 +238,9 @@ def worse(rows, verdicts):
             yield f'{name}: must be refused, and passes'
 
 
-def share_of(rows, verdicts):
-    """(how many pass, how many should)."""
-    wanted = [row for row in rows if row.expected == 'pass']
+def passing(rows, verdicts, expected):
+    """(how many pass, how many there are) of the programs with this expectation."""
+    wanted = [row for row in rows if row.expected == expected]
     return sum(verdicts[row.sha256][0] == 'pass' for row in wanted), len(wanted)
 
 
@@ -255,12 +254,12 @@ def arc_of(move):
 
 def moves_of(text):
     """[(end in mm and deg, arc)] of lines of JSON, without lines that have no length."""
-    moves, last = [], None
+    moves, last = [], [0.0] * len('XYZABC')
     for move in map(json.loads, text.splitlines()):
         if move.get('end'):
             continue
         end = [move['mcs'].get(axis, 0.0) for axis in 'XYZABC']
-        if move.get('center') or last is None or not near(end, last):
+        if move.get('center') or not near(end, last):
             moves.append((end, arc_of(move)))
         last = end
     return moves
@@ -287,7 +286,7 @@ def differs(ours, theirs):
 def compare_paths(trunnion, rows, corpus, folders):
     """Paths against those of LinuxCNC's interpreter, where that reads the program too."""
     counts = collections.Counter()
-    if run([PYTHON, '-c', 'import gcode'])[0] != 0:
+    if run([PYTHON, PATHS, os.devnull])[0] not in (0, 1):
         print('LinuxCNC: skipped: the package linuxcnc-uspace is not installed')
         return
     for row in rows:
@@ -319,9 +318,11 @@ def check(arguments, rows, corpus):
             judged = pool.map(lambda row: judge(arguments.trunnion, row, corpus, folders), programs)
             verdicts = {row.sha256: verdict for row, verdict in zip(programs, judged)}
     print_reasons(programs, verdicts)
-    passed, wanted = share_of(programs, verdicts)
-    print(f'{passed} of {wanted} programs pass that should: {100 * passed / max(wanted, 1):.1f} %; '
-          f'{len(programs) - wanted} are to be refused')
+    passed, wanted = passing(programs, verdicts, 'pass')
+    print(f'{passed} of {wanted} programs pass that should: {100 * passed / max(wanted, 1):.1f} %')
+    for expected, what in (('later', 'of {} for turning pass'), ('refused', 'of {} pass that are to be refused')):
+        number, of_all = passing(programs, verdicts, expected)
+        print(number, what.format(of_all))
     bad = list(worse(programs, verdicts))
     print('\n'.join(bad), end='\n' if bad else '')
     if arguments.update:

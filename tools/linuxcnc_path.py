@@ -8,6 +8,7 @@ Needs the Python module `gcode` of the Debian package linuxcnc-uspace, whose num
 decimals. Every tool is there with length and radius 0, every offset is 0. Exit status 1 when LinuxCNC refuses the program,
 2 when it is not installed.
 """
+import ctypes
 import json
 import math
 import os
@@ -15,6 +16,7 @@ import sys
 import tempfile
 
 MILLIMETRES = 25.4  # of the inch that the module counts in
+TOOLS = 999
 AXES = 'XYZABC'
 ORDER = {1: (0, 1, 2), 2: (1, 2, 0), 3: (2, 0, 1)}  # first, second and normal axis of G17, G19 and G18
 PLANES = {1: 'XY', 2: 'YZ', 3: 'ZX'}
@@ -95,12 +97,24 @@ class Path:
         self.write('arc', (*end, *rotary[:3]), centre, turns)
 
 
+def load_tools(directory):
+    """The interpreter has its tools from memory that LinuxCNC shares, a file in the home directory."""
+    os.environ['HOME'] = directory
+    table = os.path.join(directory, 'tools.tbl')
+    with open(table, 'w', encoding='ascii') as file:
+        file.writelines(f'T{tool} P{tool} Z0 D0\n' for tool in range(1, TOOLS + 1))
+    library = ctypes.CDLL('libtooldata.so.0', ctypes.RTLD_GLOBAL)
+    library._Z17tool_mmap_creatorPK13EMC_TOOL_STATi(None, 0)
+    library._Z13tooldata_loadPKcPPc(table.encode(), None)
+
+
 def main():
-    try:
-        import gcode
-    except ImportError:
-        sys.exit(2)
     with tempfile.TemporaryDirectory() as directory:
+        try:
+            load_tools(directory)
+            import gcode
+        except (ImportError, OSError, AttributeError):
+            sys.exit(2)
         path = Path(os.path.join(directory, 'parameters.var'))
         with open(path.parameter_file, 'w', encoding='ascii'):
             pass
