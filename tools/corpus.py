@@ -259,7 +259,7 @@ def moves_of(text):
         if move.get('end'):
             continue
         end = [move['mcs'].get(axis, 0.0) for axis in 'XYZABC']
-        if move.get('center') or not near(end, last):
+        if move.get('center') or not same_end(end, last):
             moves.append((end, arc_of(move)))
         last = end
     return moves
@@ -269,8 +269,14 @@ def near(one, other):
     return all(abs(a - b) <= PLACE for a, b in zip(one, other))
 
 
+def same_end(one, other):
+    """A rotary axis may have made whole turns more."""
+    turned = [(a - b + 180) % 360 - 180 for a, b in zip(one[3:], other[3:])]
+    return near(one[:3], other[:3]) and near(turned, [0.0] * 3)
+
+
 def same_move(one, other):
-    if not near(one[0], other[0]) or (one[1] is None) != (other[1] is None):
+    if not same_end(one[0], other[0]) or (one[1] is None) != (other[1] is None):
         return False
     return one[1] is None or (near(one[1][0], other[1][0]) and one[1][1:] == other[1][1:])
 
