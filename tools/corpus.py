@@ -329,6 +329,7 @@ def check(arguments, rows, corpus):
     for expected, what in (('later', 'of {} for turning pass'), ('refused', 'of {} pass that are to be refused')):
         number, of_all = passing(programs, verdicts, expected)
         print(number, what.format(of_all))
+    print(f"{sum(verdict == 'pass' for verdict, _ in verdicts.values())} of {len(programs)} programs pass altogether")
     bad = list(worse(programs, verdicts))
     print('\n'.join(bad), end='\n' if bad else '')
     if arguments.update:
