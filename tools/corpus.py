@@ -44,7 +44,7 @@ MACHINES = {
     'lathe': {'of': 'lathe', 'tools': 99},
 }
 FUNCTIONS = '"040944": 3 4 5 19; 6; 7 8 9'
-M_CODES = [code for code in range(10, 1000) if code not in (19,)]
+M_CODES = [code for code in range(10, 1000) if code != 19]
 
 
 class Row(dict):
@@ -153,10 +153,10 @@ def make_machine(name, directory, codes):
     return folder
 
 
-def run(command, seconds=SECONDS):
-    """(exit status or None after `seconds`, output)."""
+def run(command, errors=subprocess.STDOUT):
+    """(exit status or None after SECONDS, output with the errors in it, or without)."""
     try:
-        answer = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=seconds)
+        answer = subprocess.run(command, stdout=subprocess.PIPE, stderr=errors, timeout=SECONDS)
     except subprocess.TimeoutExpired:
         return None, ''
     return answer.returncode, answer.stdout.decode('utf-8', 'replace')
@@ -296,8 +296,8 @@ def compare_paths(trunnion, rows, corpus, folders):
         print('LinuxCNC: skipped: the package linuxcnc-uspace is not installed')
         return
     for row in rows:
-        ours = run(command_of(trunnion, row, corpus, folders, '--jsonl'))
-        theirs = run([PYTHON, PATHS, row.file(corpus)])
+        ours = run(command_of(trunnion, row, corpus, folders, '--jsonl'), subprocess.DEVNULL)
+        theirs = run([PYTHON, PATHS, row.file(corpus)], subprocess.DEVNULL)
         if ours[0] != 0 or theirs[0] != 0:
             counts['not read by both'] += 1
             continue
