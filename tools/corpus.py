@@ -33,6 +33,7 @@ SECONDS = 20  # for one program
 PLACE = 1e-6  # mm, within which two paths agree
 LONGEST = 140  # columns of a reason
 ALARM = re.compile(r'^(?P<file>.*?):(?P<line>\d+):(?P<column>\d+:)? ?(?P<number>\d{3,4}): (?P<text>.*)$')
+PLACED = re.compile(r'^(\S+?:)?\d+:(\d+:)? ')
 
 # What the programs of the table run on: delivered machines without ends of travel and without bodies, with every tool, and
 # with a logic that carries out every M code. `letters` renames a channel's axis; such a machine has no kinematics.
@@ -213,7 +214,7 @@ def judge(trunnion, row, corpus, folders):
 
 def kind_of(reason):
     """A reason without its place."""
-    return re.sub(r'^(\S+?:)?\d+:(\d+:)? ', '', reason)
+    return PLACED.sub('', reason)
 
 
 def print_reasons(rows, verdicts):
@@ -236,6 +237,8 @@ def worse(rows, verdicts):
             yield f'{name}: passed before: {reason}'
         if row.expected == 'refused' and verdict == 'pass':
             yield f'{name}: must be refused, and passes'
+        if verdict == 'refused' and not PLACED.match(reason) and reason != row.reason:
+            yield f'{name}: no alarm with a place: {reason}'
 
 
 def passing(rows, verdicts, expected):
@@ -315,6 +318,8 @@ def check(arguments, rows, corpus):
     absent = [row for row in programs if not os.path.exists(row.file(corpus))]
     if absent:
         sys.exit(f'corpus: {len(absent)} of {len(programs)} programs are not in {corpus}: tools/corpus.py --fetch')
+    if not os.path.exists(arguments.trunnion):
+        sys.exit(f'corpus: {arguments.trunnion} is not there: make product')
     with tempfile.TemporaryDirectory() as directory:
         folders = machines(arguments.trunnion, directory)
         if arguments.paths:
