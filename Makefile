@@ -15,7 +15,7 @@ FUZZ_SECONDS ?= 6
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
 .PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak hostile hostile_bus recordings histories rests \
-  oscat nightly coverage package clean
+  oscat corpus nightly coverage package clean
 
 run: product
 	$(TRUNNION) run ac-table nas979_cone --report out
@@ -130,6 +130,11 @@ rests: build
 # OSCAT=DIR: the exports of OSCAT Basic, which is not a part of this repository. Compiles it and checks results of its functions.
 oscat: product
 	OSCAT='$(OSCAT)' tools/oscat/check_oscat.py $(TRUNNION)
+
+# CORPUS=DIR: real part programs of others, which are not a part of this repository (docs/corpus.md). Checks them and compares
+# the verdicts with those of the table; tools/corpus.py --fetch downloads them.
+corpus: product
+	CORPUS='$(CORPUS)' tools/corpus.py $(TRUNNION) --jobs $(JOBS)
 
 # Continues where an interrupted run of the same commit was.
 nightly:

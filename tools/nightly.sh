@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 passed=${XDG_CACHE_HOME:-$HOME/.cache}/trunnion/nightly/$(git rev-parse HEAD)
 mkdir -p "$passed"
 export TRUNNION_FORGET=1 FUZZ_SECONDS=60
-all=(packages build test lint sanitize threads fuzz faults recordings histories rests soak hostile hostile_bus under_load coverage oscat)
+all=(packages build test lint sanitize threads fuzz faults recordings histories rests soak hostile hostile_bus under_load coverage oscat corpus)
 
 once() {
   [ ! -e "$passed/$1" ] || { echo "== $1 has passed"; return; }
@@ -20,7 +20,7 @@ run() {
   case $1 in
     packages) once packages deploy/install-packages.sh nightly ;;
     under_load) once under_load tools/under_load.sh 10 ;;
-    build | test | lint | sanitize | threads | fuzz | faults | recordings | histories | rests | soak | hostile | hostile_bus | coverage | oscat) once "$1" make "$1" ;;
+    build | test | lint | sanitize | threads | fuzz | faults | recordings | histories | rests | soak | hostile | hostile_bus | coverage | oscat | corpus) once "$1" make "$1" ;;
     *) echo "nightly: no stage $1: ${all[*]}"; exit 2 ;;
   esac
 }
