@@ -21,7 +21,7 @@ inline std::string print_file(std::string_view program, std::uint16_t channel) {
   constexpr std::size_t longest = 51;  // 64 without the rest and a channel of two digits
   std::string name(print_file_prefix);
   name += program.substr(0, longest);
-  if (channel != 0) name += "-" + std::to_string(channel);
+  if (channel != 0) name.append("-").append(std::to_string(channel));
   name += ".txt";
   return name;
 }

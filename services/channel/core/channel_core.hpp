@@ -2,7 +2,8 @@
 // One channel: modes, program flow, holds and restarts. No DDS, no clock: the service brings the messages.
 // What it is doing is in ChannelStates; the parts have the data of what they do. ProgramSelection and Mdi:
 // what is carried out. Interlock: what others let it do. ChannelBodies: what is in the way. ManualMotion,
-// Homing and StreamWriter: motion. AuxiliaryHandshake, TableChange and CycleCall: what is asked of others.
+// Homing and StreamWriter: motion. AuxiliaryHandshake, TableChange, LinePrinter and CycleCall: what is asked
+// of others.
 #pragma once
 
 #include <cstdint>

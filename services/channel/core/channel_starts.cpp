@@ -47,6 +47,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   program_flow_.start(program_path_.trajectory(), text, program_start_, power_on_modal(), *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   interrupted_ = {};
+  hold_waits_ = false;
   // A drive that has lost its cycle counts anew.
   ended_ = std::min(ended_, link().snapshot().valid ? link().snapshot().cycle : 0);
   states_.begin(Activity::program);

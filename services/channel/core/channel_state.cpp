@@ -35,8 +35,8 @@ std::string ChannelCore::detail() const {
     return "searching line " + std::to_string(executed.line);
   if (link().resuming() && link().drive_mode() == DriveMode::HELD)
     return "the drive waits for cycle start, or a reset, of the other channels that it has stopped";
-  if (printer_.open()) return "waits for the program service: a line of DPRNT";
-  if (hold_waits_) return "the feed hold waits until the program permits it (#3004)";
+  if (printer_.open() && states_.in<Waiting>()) return "waits for the program service: a line of DPRNT";
+  if (hold_waits_ && !held) return "the feed hold waits until the program permits it (#3004)";
   if (cycle_call_.open()) return "waits for the measurement of the kinematics";
   if (waits_for_text()) return "waiting for the text of the program";
   if (running && preparing != nullptr && preparing->approaching) return "approaching the program";

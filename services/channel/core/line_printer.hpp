@@ -12,10 +12,10 @@
 
 namespace trunnion::channel {
 
-/// The newest line of a program that is in its file.
+/// The newest line of a program that is in its file, and where the next one goes.
 struct PrintedLine {
   std::string file;
-  std::uint32_t sequence = 0;  ///< of its command
+  std::uint32_t sequence = 0;  ///< of its command; 0: the program has no line in the file yet
   std::uint64_t end = 0;       ///< of the line in the file, bytes
   bool operator==(const PrintedLine&) const = default;
 
@@ -50,7 +50,7 @@ class LinePrinter {
   Outcome finish(const idl::program::ProgramReply& reply);
   const std::string& reason() const { return reason_; }
   /// Gives up what is open.
-  void cancel() { open_ = false, outgoing_.reset(); }
+  void cancel() { open_ = unanswered_ = false, outgoing_.reset(); }
 
   bool open() const { return open_; }
   /// Nothing is open and everything has been taken.
@@ -63,6 +63,7 @@ class LinePrinter {
   PrintedLine program_, line_;  // of MDI a place of its own: it may print while a program is held
   Source source_ = Source::program;
   bool continues_ = false, open_ = false, moved_ = false;
+  bool unanswered_ = false;  // whether the line of request_ is in its file is not known
   std::uint32_t sequence_ = 0;
   idl::program::ProgramRequest request_;
   std::optional<idl::program::ProgramRequest> outgoing_;

@@ -67,6 +67,53 @@ TEST(LinePrinter, GoesToTheEndThatItIsToldOnceWhenTheFileWasDeleted) {
   EXPECT_TRUE(printer.at_rest());
 }
 
+// The list of the programs has the line already: only the answer, or the index of the store, is missing.
+TEST(LinePrinter, ALineThatWasRefusedOrNotAnsweredIsSentAgainForTheSamePlace) {
+  LinePrinter printer;
+  printer.start(false);
+  ASSERT_TRUE(printer.begin(Source::program, "DPRNT-a.txt", 10, 3, "X1"));
+  printer.take_request();
+  EXPECT_EQ(printer.finish(refused(alarm::storage_failed, 10)), Outcome::refused);
+  ASSERT_TRUE(printer.begin(Source::program, "DPRNT-a.txt", 13, 3, "X1"));
+  EXPECT_EQ(printer.take_request()->offset, 10u);
+  printer.start(true);  // the drive has restarted before the answer
+  ASSERT_TRUE(printer.begin(Source::program, "DPRNT-a.txt", 13, 3, "X1"));
+  EXPECT_EQ(printer.take_request()->offset, 10u);
+  EXPECT_EQ(printer.finish(accepted(13)), Outcome::done);
+  // After a reset the same line is another one.
+  ASSERT_TRUE(printer.begin(Source::program, "DPRNT-a.txt", 13, 4, "X1"));
+  printer.take_request();
+  printer.cancel();
+  printer.start(false);
+  ASSERT_TRUE(printer.begin(Source::program, "DPRNT-a.txt", 16, 4, "X1"));
+  EXPECT_EQ(printer.take_request()->offset, 16u);
+}
+
+TEST(LinePrinter, TheProcessBehindAKillFindsTheFirstLineOfAProgram) {
+  LinePrinter killed;
+  killed.start(false);
+  ASSERT_TRUE(killed.begin(Source::program, "DPRNT-a.txt", 10, 3, "X1"));
+  EXPECT_EQ(killed.printed(), (PrintedLine{"DPRNT-a.txt", 0, 10}));
+  LinePrinter next;
+  next.set_printed(killed.printed());
+  next.start(true);
+  ASSERT_TRUE(next.begin(Source::program, "DPRNT-a.txt", 13, 3, "X1"));
+  EXPECT_EQ(next.take_request()->offset, 10u) << "where the killed process has sent it";
+}
+
+TEST(LinePrinter, TheAnswerToALineThatWasGivenUpIsNotThatToTheNext) {
+  LinePrinter printer;
+  printer.start(false);
+  ASSERT_TRUE(printer.begin(Source::program, "DPRNT-a.txt", 10, 3, "X1"));
+  printer.take_request();
+  printer.cancel();
+  printer.start(false);
+  ASSERT_TRUE(printer.begin(Source::program, "DPRNT-a.txt", 10, 1, "X2"));
+  EXPECT_EQ(printer.finish(accepted(13)), Outcome::not_open);
+  EXPECT_TRUE(printer.open());
+  EXPECT_TRUE(printer.take_request());
+}
+
 TEST(LinePrinter, PassesOverWhatWasPrintedBeforeTheProgramWasContinued) {
   LinePrinter printer;
   printer.set_printed({"DPRNT-a.txt", 5, 100});
