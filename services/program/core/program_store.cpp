@@ -72,7 +72,8 @@ void ProgramStore::adopt_files(const IndexFile& index) {
       ++revision_;
     } else if (row == nullptr || !row->stored || row->next == identity || accepted.contains(name) ||
                (machine::is_print_file(name) && identity_of(*row->stored) != identity)) {
-      put(name, text, machine::role::setter);  // who has stored it is not known
+      // Who has stored it is not known; what programs print is nobody's.
+      put(name, text, machine::is_print_file(name) ? machine::role::machine_operator : machine::role::setter);
       adopted.insert({identity.size, identity.crc32});
     } else {
       index_[name] = {*row->stored, machine::is_print_file(name) ? std::nullopt : text.number()};
@@ -414,8 +415,12 @@ std::string ProgramStore::rename(const Request& request, Reply& reply) {
   if (!valid_name(request.new_name)) return "'" + request.new_name.substr(0, 64) + "' is not a program name";
   if (index_.count(request.new_name) != 0) return "program '" + request.new_name + "' exists already";
   if (const auto damaged = damaged_.find(request.name); damaged != damaged_.end()) return damaged->second;
-  programs_.publish(request.name, request.new_name);
   auto program = found->second;
+  if (machine::is_print_file(request.new_name))
+    program.number.reset();
+  else if (machine::is_print_file(request.name))
+    program.number = scan(programs_, request.name).number();
+  programs_.publish(request.name, request.new_name);
   index_.erase(found);
   program.entry.name = request.new_name;
   program.entry.revision = ++revisions_[request.new_name];

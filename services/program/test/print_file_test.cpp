@@ -73,6 +73,21 @@ TEST(PrintedLines, AreNoProgramThatIsCalledByItsNumber) {
   EXPECT_EQ(later.apply(request(Operation::RESOLVE, "O1234"), 0).entry.name, "part.nc");
 }
 
+TEST(PrintedLines, BecomeAProgramByAnotherName) {
+  MemoryFiles files, state;
+  ProgramStore store(files, state);
+  print(store, 0, "O1234\n");
+  auto rename = request(Operation::RENAME, name);
+  rename.new_name = "part.nc";
+  ASSERT_TRUE(store.apply(rename, 0).accepted);
+  EXPECT_EQ(store.apply(request(Operation::RESOLVE, "O1234"), 0).entry.name, "part.nc");
+  rename = request(Operation::RENAME, "part.nc");
+  rename.new_name = name;
+  ASSERT_TRUE(store.apply(rename, 0).accepted);
+  EXPECT_FALSE(store.apply(request(Operation::RESOLVE, "O1234"), 0).accepted);
+  EXPECT_EQ(print(store, 6, "X1\n").offset, 9u);
+}
+
 TEST(PrintedLines, WhatACrashHasLeftOfALineIsNoDamage) {
   MemoryFiles files, state;
   { print(*std::make_unique<ProgramStore>(files, state), 0, "X1\n"); }
@@ -80,6 +95,7 @@ TEST(PrintedLines, WhatACrashHasLeftOfALineIsNoDamage) {
   ProgramStore store(files, state);
   EXPECT_TRUE(store.damaged().empty());
   EXPECT_EQ(store.list().programs.at(0).size, 5u);
+  EXPECT_EQ(store.list().programs.at(0).role, 0u) << "no program becomes a setter's by a crash";
   EXPECT_TRUE(print(store, 5, "X3\n").accepted);
   files.texts.erase(name);
   ProgramStore without(files, state);
