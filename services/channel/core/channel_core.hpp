@@ -184,11 +184,10 @@ class ChannelCore {
   // No fields, explicit_state() writes what counts of them: stream_, manual_, program_flow_, variables_. No
   // fields, the constructor sets them or they are received again: number_, virtual_time_, machine_,
   // parameters_, next_parameters_, cycle_service_. No field, nothing is under way and the state of the
-  // service has the axes: homing_. No fields, nothing is under way: states_, table_change_, printer_,
-  // parts_at_start_, hold_waits_, skip_, read_,
-  // exact_stop_, tapping_, thread_, program_homing_, homed_at_start_, restart_, recovered_, variables_news_,
-  // events_. No field, feedback tells it: spindles_. No fields, they are made again: program_path_,
-  // manual_path_, program_cache_, bodies_, unusable_, state_.
+  // service has the axes: homing_. No fields, nothing is under way: states_, table_change_,
+  // parts_at_start_, hold_waits_, skip_, read_, exact_stop_, tapping_, thread_, program_homing_,
+  // homed_at_start_, restart_, recovered_, variables_news_, events_. No field, feedback tells it: spindles_.
+  // No fields, they are made again: program_path_, manual_path_, program_cache_, bodies_, unusable_, state_.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("link", self.stream_.link()), visit("handshake", self.handshake_),
@@ -207,6 +206,7 @@ class ChannelCore {
     if (reads || self.tool_since_ != 0) visit("tool_since", self.tool_since_);
     if (reads || self.tap_.lead != 0) visit("tap", self.tap_);
     if (reads || self.synchronized_ != 0) visit("synchronized", self.synchronized_);
+    if (reads || self.printer_.has_printed()) visit("printer", self.printer_);
   }
 
  private:

@@ -57,6 +57,14 @@ class LinePrinter {
   bool at_rest() const { return !open_ && !outgoing_; }
   std::optional<idl::program::ProgramRequest> take_request();
 
+  bool has_printed() const { return !program_.file.empty() || !line_.file.empty(); }
+  /// No fields, at rest nothing is open: source_, continues_, open_, moved_, unanswered_, sequence_,
+  /// request_, outgoing_, reason_.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("program", self.program_), visit("line", self.line_);
+  }
+
  private:
   PrintedLine& place() { return source_ == Source::program ? program_ : line_; }
 

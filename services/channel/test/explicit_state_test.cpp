@@ -104,6 +104,21 @@ TEST_F(ExplicitState, HasWhatTheRecordOfTheProgramHas) {
   EXPECT_EQ(core->running_program(), before);
 }
 
+TEST_F(ExplicitState, HasThePlaceOfTheNextLineThatIsPrinted) {
+  load("DPRNT[A]\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  for (int i = 0; i < 20; ++i) round();
+  ASSERT_TRUE(core->take_print_request());
+  idl::program::ProgramReply reply;
+  reply.accepted = true, reply.offset = 2;
+  core->on_printed(reply);
+  run();
+  const auto before = core->printed();
+  ASSERT_EQ(before.end, 2u);
+  continue_from(given());
+  EXPECT_EQ(core->printed(), before);
+}
+
 // They refuse a tap, also before the drive has said it again.
 TEST_F(ExplicitState, HasTheSpindlesThatAreSynchronized) {
   EXPECT_EQ(given().find("\"synchronized\""), std::string::npos);
