@@ -82,10 +82,13 @@ void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
 
 RunningProgram ChannelCore::running_program() const {
   auto left = interrupted_;
-  if (program_under_way())
+  std::uint32_t parts_since = 0;
+  if (program_under_way()) {
     left = {selected().name, selected().revision, selected().crc32,
             std::max<std::uint32_t>(program_line(), 1)};
-  return {left, ended_, parts_, tool_, tool_since_, tap_, printer_.printed()};
+    parts_since = parts_ - parts_at_start_.value_or(parts_);
+  }
+  return {left, ended_, parts_, tool_, tool_since_, tap_, printer_.printed(), parts_since};
 }
 
 // What the program has read ahead counts: a variable is not restored when the motion behind it is stopped.

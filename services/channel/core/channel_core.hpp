@@ -91,6 +91,7 @@ class ChannelCore {
     tool_ = program.tool, tool_since_ = program.tool_since;
     tap_ = program.tap;
     printer_.set_printed(program.printed);
+    parts_at_start_ = program.parts - program.parts_since;
   }
   /// Machined since the count was set.
   std::uint32_t parts() const { return parts_; }
@@ -419,7 +420,7 @@ class ChannelCore {
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended
   std::uint32_t parts_ = 0;
-  std::optional<std::uint32_t> parts_at_start_;  // of the program, as homed_at_start_
+  std::optional<std::uint32_t> parts_at_start_;  // as they were when the program started
   bool hold_waits_ = false;                      // a feed hold, until the program permits it (#3004)
   LeftProgram interrupted_;     // by an emergency stop or the end of the control: its line is offered
   AxisValues machine_start_{};  // of the path at rest, in machine coordinates

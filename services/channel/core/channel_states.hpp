@@ -46,7 +46,7 @@ using Active = std::variant<Running, Preparing>;
 
 /// Nothing is under way.
 struct Idle {};
-/// At rest until the PLC has finished a function, or the owner of a table has changed it.
+/// At rest until the PLC has finished a function, the owner of a table has changed it, or a line is printed.
 struct Waiting {
   Active then;
 };

@@ -32,7 +32,8 @@ struct RunningProgram : LeftProgram {
   std::uint32_t tool = 0;        ///< in the spindle
   std::uint64_t tool_since = 0;  ///< cycle from which on the drive's snapshot knows of it
   program_execution::TapInHole tap = {};
-  PrintedLine printed = {};  ///< by the program that is under way, or was
+  PrintedLine printed = {};       ///< by the program that is under way, or was
+  std::uint32_t parts_since = 0;  ///< of `parts`, since the program that is under way began, modulo 2^32
   bool operator==(const RunningProgram&) const = default;
 
   template <class Self, class Visit>
@@ -40,6 +41,7 @@ struct RunningProgram : LeftProgram {
     LeftProgram::fields(self, visit);
     visit("ended", self.ended), visit("parts", self.parts), visit("tool", self.tool);
     visit("tool_since", self.tool_since), visit("tap", self.tap), visit("printed", self.printed);
+    visit("parts_since", self.parts_since);
   }
 };
 

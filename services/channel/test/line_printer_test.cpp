@@ -237,6 +237,26 @@ TEST_F(Printing, AStartFromALinePrintsOnlyWhatIsBehindIt) {
   EXPECT_EQ(lines, std::vector<std::string>{"B\n"});
 }
 
+// The program is interpreted again from its beginning, where no part was counted.
+TEST_F(Printing, AProcessThatContinuesAProgramReadsTheNumberOfPartsOfItsStart) {
+  load("G90\n#3901=#3901+40\n#500=#3901\nG1 X100 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  go_on(40);
+  const auto kept = core->running_program();
+  ASSERT_EQ(kept.parts, 40u);
+  EXPECT_EQ(read_record(write_record(kept), "f"), kept);
+  begin(kept);
+  ASSERT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  go_on();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(core->parts(), 41u);
+  const auto* variables = core->take_variables();
+  ASSERT_NE(variables, nullptr);
+  EXPECT_EQ(variables->kept[0].number, 40);
+}
+
 TEST_F(Printing, AProgramSetsTheNumberOfPartsThatItsEndCounts) {
   load("#100=#3901\n#3901=#3901+40\nM30\n");
   ask(CommandKind::CYCLE_START);
