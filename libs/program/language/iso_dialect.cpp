@@ -173,8 +173,6 @@ class BlockReader {
   Fault word(char name) {
     const std::uint16_t at = scanner_.offset();
     scanner_.advance();
-    if (name == 'T' && scanner_.take('='))
-      return {AlarmNumber::number_missing, at, "a tool is called by its number"};
     Value value;
     if (names_axis(name)) {
       value = Value::of(0);
