@@ -98,7 +98,8 @@ TEST(CodeCalls, OfHaasProgramsAreTheirOwnNumbers) {
   machine.programs["O9020"] = std::make_unique<StringSource>("X9.\nM99\n");
   EXPECT_THAT(stream(run(machine, "G112 X1. P2\nG47 X3.\nG77 X4.\nM96\nM30\n")),
               ElementsAre("rapid X1 Y2", "rapid X3 Y2", "rapid X4 Y2", "rapid X9 Y2", "end 30"));
-  EXPECT_EQ(run(machine, "M3 S9\nG87 Z-1. R1. F100.\n").alarm.number, AlarmNumber::none) << "G88 of the table";
+  EXPECT_EQ(run(machine, "M3 S9\nG87 Z-1. R1. F100.\n").alarm.number, AlarmNumber::none)
+      << "G88 of the table";
   EXPECT_EQ(run(machine, "G113\n").alarm.number, AlarmNumber::haas_function_missing);
   EXPECT_EQ(run(machine, "M60 G36\n").alarm.number, AlarmNumber::haas_function_missing);
 }
