@@ -154,6 +154,9 @@ AlarmNumber ControlVariables::modal(std::uint32_t number, double& result) const 
     case 4030:
       result = modal.absolute_centres ? 90.1 : 91.1;
       break;
+    case 4033:
+      result = executor_.frame().setting_error().number;
+      break;
     case 4107:
       result = modal.radius_offset;
       break;

@@ -117,6 +117,7 @@ TEST(ToolMeasuring, AContactOutsideOfItsRangeIsAnAlarmAndChangesNothing) {
   EXPECT_TRUE(says(run(setup, begin + "G37 Z10 H2\n"), "H must be the active length"));
   EXPECT_TRUE(says(run(setup, begin + "G91 G37 Z-5\n"), "needs G90"));
   EXPECT_TRUE(says(run(setup, begin + "G49\nG37 Z10\n"), "needs G43"));
+  EXPECT_TRUE(says(run(setup, begin + "G54.4 P1\nG37 Z10\n"), "needs G54.4 P0"));
   EXPECT_TRUE(says(run(setup, begin + "#2001=3\nG37 Z10\n"), "is not that of the table"));
 }
 

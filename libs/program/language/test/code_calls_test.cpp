@@ -119,6 +119,7 @@ TEST(SubprogramCall, QAloneIsASequenceNumberOfThisProgram) {
   TestMachine machine;
   EXPECT_THAT(stream(run(machine, "G0 Y1\nM98 Q20 L2\nX3\nM30\nN20 G91 X1\nG90\nM99\n")),
               ElementsAre("rapid Y1", "rapid X1 Y1", "rapid X2 Y1", "rapid X3 Y1", "end 30"));
+  EXPECT_EQ(run(machine, "M98 Q20 H5\nM30\nN20 X1\nN5 M99\n").alarm.number, AlarmNumber::unused_word);
   const auto result = run(machine, "M98 Q20\nM30\nO30\nN20 X1\nM99\n");
   EXPECT_EQ(result.alarm.number, AlarmNumber::label_missing);
   EXPECT_EQ(result.alarm.column, 5u);
