@@ -24,7 +24,8 @@ inline constexpr std::size_t max_cycle_arguments = 33;
 /// One G or M of a block.
 struct CodeWord {
   double value = 0;
-  std::uint16_t offset = 0;  ///< byte of the line, from 0
+  std::uint16_t offset = 0;   ///< byte of the line, from 0
+  std::uint16_t written = 0;  ///< its number in the program, where `value` is that of the same code here
 };
 
 enum class Head : std::uint8_t {
@@ -90,6 +91,7 @@ struct Block {
   bool haas = false;        ///< words of dwells, cycles and tool offsets mean what they do on Haas controls
   bool local_call = false;  ///< its M98 calls the program that begins at sequence number P (Haas: M97)
   bool every_axis = false;  ///< its G28 is for all axes (Haas)
+  Fault refused;  ///< of a code that the dialect does not have: an alarm, unless the code calls a program
   std::uint8_t work_offset = 0;  ///< of its G54.1, when P does not name it; 0: P does
   bool condition = false;
   char lead_word = 'F';  ///< of threads and taps; with K (NUM), F is a feed
@@ -127,6 +129,7 @@ struct Block {
     head = Head::none;
     skipped = message = ends_program = two_tools = spindle_codes = haas = local_call = every_axis = false;
     work_offset = 0;
+    refused = Fault{};
     lead_word = 'F';
     thread = ThreadBlock::chained;
     statement = Statement::none;

@@ -322,7 +322,8 @@ Fault BlockExecutor::set_call(Flow& flow) {
     if (words.has(letter) && words.used(letter)) return {AlarmNumber::unused_word, words.offset(letter)};
   }
   if (const Fault fault = words.whole_number(number, 1, 99999999, flow.subprogram)) return fault;
-  if (!label_alone) {
+  // What is called by a sequence number begins there.
+  if (!flow.local) {
     if (const Fault fault = set_label(flow)) return fault;
   }
   if (!words.has('L')) return {};

@@ -25,7 +25,8 @@ constexpr double most_parts = 4294967295.0;
 constexpr std::uint32_t first_modal = 4001;
 constexpr std::uint32_t modal_apart = 200;  // from #4001 to #4201
 
-/// As one of the table of variables.
+/// As those of the table of variables.
+constexpr VariableRange external_offset_range{5201, 5209, VariableKind::external_work_offset, true, ""};
 constexpr VariableRange basic_offsets_range{5221, 5329, VariableKind::work_offset, true, ""};
 
 bool is_work_offset(VariableKind kind) {
@@ -150,6 +151,12 @@ AlarmNumber ControlVariables::modal(std::uint32_t number, double& result) const 
     case 4022:
       result = modal.mirrored ? 51.1 : 50.1;
       break;
+    case 4030:
+      result = modal.absolute_centres ? 90.1 : 91.1;
+      break;
+    case 4033:
+      result = executor_.frame().setting_error().number;
+      break;
     case 4107:
       result = modal.radius_offset;
       break;
@@ -188,16 +195,17 @@ AlarmNumber ControlVariables::homed(std::uint32_t axis, double& result) const {
   return AlarmNumber::none;
 }
 
-// #2501 is X of G54, #2502 of G55 and #2601 Y of G54.
-std::optional<std::uint32_t> ControlVariables::offset_of_axis(const VariableRange& range,
-                                                              std::uint32_t index) const {
+// #2500 is X of the external offset, #2501 of G54, #2502 of G55 and #2601 Y of G54.
+std::optional<ControlVariables::OffsetPlace> ControlVariables::offset_of_axis(const VariableRange& range,
+                                                                              std::uint32_t index) const {
   constexpr std::uint32_t first = 2500, axes_apart = 100, axes = 3;
   const std::uint32_t number = range.first + index;
   if (number < first || number >= first + axes * axes_apart || !environment_.offsets_by_axis())
     return std::nullopt;
-  const std::uint32_t offset = (number - first) % axes_apart;
-  if (offset == 0 || offset > basic_offsets) return std::nullopt;
-  return (offset - 1) * offsets_apart + (number - first) / axes_apart;
+  const std::uint32_t offset = (number - first) % axes_apart, axis = (number - first) / axes_apart;
+  if (offset == 0) return OffsetPlace{&external_offset_range, axis};
+  if (offset > basic_offsets) return std::nullopt;
+  return OffsetPlace{&basic_offsets_range, (offset - 1) * offsets_apart + axis};
 }
 
 AlarmNumber ControlVariables::read_parameter(std::uint32_t number, double& value) const {
@@ -208,7 +216,7 @@ AlarmNumber ControlVariables::read_parameter(std::uint32_t number, double& value
 }
 
 AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t index, Value& value) const {
-  if (const auto offset = offset_of_axis(range, index)) return read(basic_offsets_range, *offset, value);
+  if (const auto offset = offset_of_axis(range, index)) return read(*offset->range, offset->index, value);
   double result = 0;
   value = Value{};  // vacant where there is nothing, so that a program can ask
   switch (range.kind) {
@@ -309,7 +317,7 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
 
 AlarmNumber ControlVariables::write(const VariableRange& range, std::uint32_t index, Value value) {
   if (const auto offset = offset_of_axis(range, index))
-    return ask(basic_offsets_range, *offset, value.number);
+    return ask(*offset->range, offset->index, value.number);
   switch (range.kind) {
     case VariableKind::alarm:
       return AlarmNumber::program_alarm;

@@ -89,8 +89,13 @@ class ControlVariables final : public SystemVariables {
   AlarmNumber order(const VariableRange& range, std::uint32_t index, double value);
   AlarmNumber suppress(std::uint32_t number, double value);
   AlarmNumber set_signal(std::uint32_t number, double value);
-  /// Of #2501 .. #2706 where they are work offsets and not tools: the index of the same one among #5221 ..
-  std::optional<std::uint32_t> offset_of_axis(const VariableRange& range, std::uint32_t index) const;
+  /// A work offset among #5201 .. or #5221 ..
+  struct OffsetPlace {
+    const VariableRange* range;
+    std::uint32_t index;
+  };
+  /// Of #2500 .. #2706 where they are work offsets and not tools: the same one.
+  std::optional<OffsetPlace> offset_of_axis(const VariableRange& range, std::uint32_t index) const;
   static constexpr double largest_added_angle = 360;  // deg, of EC
   /// What the machine says at rest; `number` as Command::number of kind read.
   AlarmNumber live_value(std::uint32_t number, double& result) const;

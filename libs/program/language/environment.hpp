@@ -164,7 +164,7 @@ class Environment {
   }
   /// DPRNT prints blanks where a number has no sign or fewer digits than places (parameter 040721).
   virtual bool prints_blanks() const { return true; }
-  /// #2501 to #2706 are work offsets and not tools (parameter 040722).
+  /// #2500 to #2706 are work offsets and not tools (parameter 040722).
   virtual bool offsets_by_axis() const { return false; }
   /// External parameter `number` of the NUM dialect, in the unit of its row in num_parameters.hpp; nothing
   /// when the machine does not have it.

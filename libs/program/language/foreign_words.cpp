@@ -124,11 +124,9 @@ constinit const std::span<const ForeignWord> foreign_words = foreign_word_table;
 
 const ForeignWord* find_foreign_word(const Fault& fault, std::string_view line, std::uint16_t& at) {
   if (!may_be_foreign(fault.number)) return nullptr;
-  const std::size_t begin = word_begin(line, fault.offset);
-  const std::size_t head = std::min(line.find_first_not_of(blanks), line.size());
+  const std::size_t from = word_begin(line, fault.offset);
   for (const ForeignWord& row : foreign_words) {
     const bool first = row.word.front() == '^';
-    const std::size_t from = row.word.front() == '%' ? head : begin;
     if (first && !begins_block(line, from)) continue;
     if (!fits(row.word.substr(first ? 1u : 0u), Scanner(line, from)) || !is_due(row, fault, line)) continue;
     at = static_cast<std::uint16_t>(from);

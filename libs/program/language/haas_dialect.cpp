@@ -28,9 +28,14 @@ class HaasBlock {
     for (std::size_t i = 0; i < block_.g_count; ++i) {
       CodeWord word = block_.g[i];
       const HaasCode* const code = haas_code(haas_g_codes, word.value);
-      if (code == nullptr) return {AlarmNumber::haas_g_unknown, word.offset};
       bool keep = true;
-      if (const Fault fault = complete(*code, word, keep)) return fault;
+      if (code == nullptr) {
+        refuse({AlarmNumber::haas_g_unknown, word.offset});
+      } else {
+        const auto written = static_cast<std::uint16_t>(word.value);
+        if (const Fault fault = complete(*code, word, keep)) return fault;
+        word.written = written;
+      }
       if (keep) block_.g[kept++] = word;
     }
     block_.g_count = kept;
@@ -42,7 +47,8 @@ class HaasBlock {
     const bool axes = (block_.letters & axis_bits) != 0;
     switch (code.use) {
       case HaasUse::not_here:
-        return {AlarmNumber::haas_function_missing, word.offset, code.meaning};
+        refuse({AlarmNumber::haas_function_missing, word.offset, code.meaning});
+        return {};
       case HaasUse::no_effect:
         keep = false;
         if (!calls()) block_.letters &= ~Block::bit('P');
@@ -68,6 +74,11 @@ class HaasBlock {
     }
     word.value = code.code;
     return {};
+  }
+
+  /// The first one counts.
+  void refuse(const Fault& fault) {
+    if (!block_.refused) block_.refused = fault;
   }
 
   /// M97 and M98 take P, and so does M99.
@@ -97,9 +108,12 @@ class HaasBlock {
       CodeWord& word = block_.m[i];
       const HaasCode* const code = haas_code(haas_m_codes, word.value);
       if (code == nullptr) continue;
-      if (code->use == HaasUse::not_here)
-        return {AlarmNumber::haas_function_missing, word.offset, code->meaning};
+      if (code->use == HaasUse::not_here) {
+        refuse({AlarmNumber::haas_function_missing, word.offset, code->meaning});
+        continue;
+      }
       block_.local_call = block_.local_call || code->use == HaasUse::local_call;
+      word.written = code->first;
       word.value = code->code;
     }
     return {};

@@ -7,7 +7,8 @@
 
 namespace trunnion::language {
 
-/// `first` to `last` of a Haas control, which begin here at `here`.
+/// `first` to `last` of a Haas control, which begin here at `here`: those of tools at the numbers that are
+/// tools on every machine, whatever 040722 makes of #2500.
 struct HaasVariables {
   std::uint32_t first;
   std::uint32_t last;
@@ -16,10 +17,10 @@ struct HaasVariables {
 };
 
 inline constexpr std::array haas_variables = {
-    HaasVariables{2001, 2200, 2201, "tool length"},
-    HaasVariables{2201, 2400, 2001, "tool length wear"},
-    HaasVariables{2401, 2600, 2601, "tool diameter, or radius with 04c801 = 1"},
-    HaasVariables{2601, 2800, 2401, "its wear"},
+    HaasVariables{2001, 2200, 11001, "tool length"},
+    HaasVariables{2201, 2400, 10001, "tool length wear"},
+    HaasVariables{2401, 2600, 13001, "tool diameter, or radius with 04c801 = 1"},
+    HaasVariables{2601, 2800, 12001, "its wear"},
     HaasVariables{3000, 3004, 3000, "alarm, timers, suppression of single block and feed hold"},
     HaasVariables{3006, 3006, 3006, "stop with a message"},
     HaasVariables{3011, 3012, 3011, "date, time"},

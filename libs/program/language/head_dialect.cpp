@@ -29,7 +29,7 @@ HeadLine read_comment(std::string_view comment, std::size_t at) {
 }
 
 /// Past <NAME>; false at another character, and when it is open.
-bool skip_name(Scanner& scanner) {
+bool pass_name(Scanner& scanner) {
   if (scanner.at_end() || scanner.peek() != '<') return false;
   while (!scanner.at_end() && scanner.peek() != '>') scanner.advance();
   if (scanner.at_end()) return false;
@@ -42,11 +42,11 @@ bool skip_name(Scanner& scanner) {
 bool skip_mark(Scanner& scanner) {
   const char c = scanner.peek();
   const char upper = letter(c);
-  if (c == '<') return skip_name(scanner);
+  if (c == '<') return pass_name(scanner);
   if (c != '%' && c != ':' && upper != 'O' && upper != 'N') return false;
   scanner.advance();
   scanner.skip_blanks();
-  if (upper == 'O' && skip_name(scanner)) return true;
+  if (upper == 'O' && pass_name(scanner)) return true;
   const bool numbered = !scanner.at_end() && is_digit(scanner.peek());
   skip_digits(scanner);
   return numbered || c == '%';

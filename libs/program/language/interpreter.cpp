@@ -322,6 +322,7 @@ Interpreter::State Interpreter::execute_words(std::string_view line) {
   if (calls_by_code_ && rules_.cycle_m_codes && !levels_[depth_].by_code) {
     if (const auto called = call_by_code(line)) return *called;
   }
+  if (block_.refused) return fail(block_.refused, line);
   Call call;
   static constexpr CycleMCodes no_cycles{};
   if (find_call(block_, rules_.cycle_m_codes ? cycle_m_codes_ : no_cycles, call))

@@ -71,6 +71,7 @@ std::optional<Interpreter::State> Interpreter::call_by_code(std::string_view lin
   std::uint32_t variable = 0, further = 0;
   double value = 0, unused = 0;
   if (!take_code_call(block_, code_calls_, call, variable, value)) return std::nullopt;
+  if (block_.refused && block_.refused.offset != call.offset) return fail(block_.refused, line);
   const bool absolute = executor_.modal().absolute;
   if (call.kind == CallKind::macro) {
     if (const Fault fault = read_code_call(block_, absolute, call, arguments_)) return fail(fault, line);

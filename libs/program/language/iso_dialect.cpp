@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "language/cycle_signature.hpp"
 #include "language/expression.hpp"
+#include "language/iso_cycle.hpp"
 #include "language/iso_line.hpp"
 #include "language/letters.hpp"
 #include "language/scanner.hpp"
@@ -14,13 +14,6 @@
 
 namespace trunnion::language {
 namespace {
-
-/// Vacant when the text is no number.
-Value number_in(std::string_view text) {
-  const Decimal decimal = read_decimal(text.data(), text.data() + text.size());
-  const bool whole = decimal.status == DecimalStatus::ok && decimal.end == text.data() + text.size();
-  return whole ? Value::of(decimal.value) : Value();
-}
 
 class BlockReader {
  public:
@@ -173,8 +166,6 @@ class BlockReader {
   Fault word(char name) {
     const std::uint16_t at = scanner_.offset();
     scanner_.advance();
-    if (name == 'T' && scanner_.take('='))
-      return {AlarmNumber::number_missing, at, "a tool is called by its number"};
     Value value;
     if (names_axis(name)) {
       value = Value::of(0);
@@ -349,7 +340,7 @@ class BlockReader {
       fault = state(Statement::else_);
     } else if (scanner_.looking_at("CYCLE")) {
       calls_cycle_ = true;
-      fault = cycle();
+      fault = read_cycle(scanner_, line_, variables_, block_);
     } else if (take_abbreviated(scanner_, "WHILE")) {
       fault = loop();
     } else if (take_abbreviated(scanner_, "END")) {
@@ -370,56 +361,6 @@ class BlockReader {
       return {AlarmNumber::statement_not_first, at};
     }
     return fault;
-  }
-
-  /// CYCLE1234(1, "text", , 4): arguments by their place, a skipped one is vacant.
-  Fault cycle() {
-    scanner_.take_word("CYCLE");
-    if (scanner_.at_end() || !is_digit(scanner_.peek())) return {AlarmNumber::unknown_instruction, block_.at};
-    const Decimal name = scanner_.number();
-    if (name.status != DecimalStatus::ok || name.value > highest_label || name.value < 1 ||
-        name.value != std::floor(name.value))
-      return {AlarmNumber::number_range, block_.at};
-    const auto called = static_cast<std::uint32_t>(name.value);
-    if (const char* const instead = instead_of_cycle(called))
-      return {AlarmNumber::cycle_foreign, block_.at, instead};
-    block_.program_number = cycle_program(called);
-    // CYCLE800 needs no brackets to take the plane back.
-    if (called == swivel_cycle && (!scanner_.more() || scanner_.peek() == ';'))
-      return state(Statement::call_cycle);
-    if (!scanner_.take('(')) return {AlarmNumber::operand_missing, scanner_.offset()};
-    const auto kinds = cycle_arguments(called);
-    if (!scanner_.take(')'))
-      for (;;) {
-        if (const Fault fault = argument(kinds)) return fault;
-        if (scanner_.take(')')) break;
-        if (!scanner_.take(',')) return {AlarmNumber::bracket_open, scanner_.offset()};
-      }
-    return state(Statement::call_cycle);
-  }
-
-  /// The next one, before its comma.
-  Fault argument(std::string_view kinds) {
-    const bool more = scanner_.more();
-    const std::uint16_t at = scanner_.offset();
-    const char c = more ? scanner_.peek() : '\0';
-    if (block_.argument_count == kinds.size()) return {AlarmNumber::too_many_arguments, at};
-    Value& value = block_.arguments[block_.argument_count];
-    const char kind = kinds[block_.argument_count];
-    const bool text = kind != 'n';
-    value = Value();
-    ++block_.argument_count;
-    if (c == ',' || c == ')') return {};
-    if ((c == '"') != text && more) return {AlarmNumber::argument_kind, at};
-    if (!text) return ExpressionReader(scanner_, variables_).expression(value);
-    if (!more) return {AlarmNumber::bracket_open, at};
-    do scanner_.advance();
-    while (!scanner_.at_end() && scanner_.peek() != '"');
-    if (scanner_.at_end()) return {AlarmNumber::bracket_open, at};
-    const std::size_t first = at + std::size_t{1};
-    if (kind == 's') value = number_in(line_.substr(first, scanner_.offset() - first));
-    scanner_.advance();
-    return {};
   }
 
   Fault go_to() {

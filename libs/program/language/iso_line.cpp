@@ -23,6 +23,9 @@ constexpr std::array instructions = {
     Instruction{"DO", true},
     Instruction{"END", true},
     Instruction{"CYCLE", true},
+    Instruction{"DPRNT"},
+    Instruction{"POPEN"},
+    Instruction{"PCLOS"},
     Instruction{"WH", false, true},
     Instruction{"EN", true, true},
 };

@@ -18,9 +18,10 @@ constexpr std::uint32_t t_subprogram = 9000, m_subprogram = 9001, g_macro = 9010
 constexpr std::uint32_t t_variable = 149, s_variable = 147;
 constexpr std::size_t m_argument = 13, p_argument = 16;
 
-/// Of `code` among those that call, or their number.
+/// Of the code, as it is written, among those that call, or their number.
 template <std::size_t Count>
-std::size_t place_of(double code, const std::array<std::uint16_t, Count>& calls) {
+std::size_t place_of(const CodeWord& word, const std::array<std::uint16_t, Count>& calls) {
+  const double code = word.written != 0 ? word.written : word.value;
   std::size_t k = 0;
   while (k < Count && (calls[k] == 0 || code != calls[k])) ++k;
   return k;
@@ -141,16 +142,16 @@ bool take_code_call(Block& block, const CodeCalls& calls, Call& call, std::uint3
     return true;
   };
   for (std::size_t i = 0; i < block.g_count; ++i) {
-    const std::size_t k = place_of(block.g[i].value, calls.g);
+    const std::size_t k = place_of(block.g[i], calls.g);
     if (k < calls.g.size()) return found(g_macro + static_cast<std::uint32_t>(k), block.g[i].offset);
   }
   for (std::size_t i = 0; i < block.m_count; ++i) {
-    const std::size_t k = place_of(block.m[i].value, calls.m);
+    const std::size_t k = place_of(block.m[i], calls.m);
     if (k < calls.m.size()) return found(m_macro + static_cast<std::uint32_t>(k), block.m[i].offset);
   }
   call.kind = CallKind::subprogram;
   for (std::size_t i = 0; i < block.m_count; ++i) {
-    const std::size_t k = place_of(block.m[i].value, calls.m_subprograms);
+    const std::size_t k = place_of(block.m[i], calls.m_subprograms);
     if (k == calls.m_subprograms.size()) continue;
     const std::uint16_t at = block.m[i].offset;
     std::copy(block.m.begin() + static_cast<std::ptrdiff_t>(i + 1), block.m.begin() + block.m_count,
@@ -169,6 +170,7 @@ bool take_code_call(Block& block, const CodeCalls& calls, Call& call, std::uint3
 }
 
 Fault read_code_call(const Block& block, bool absolute, Call& call, Arguments& arguments) {
+  if (block.two_tools) return {AlarmNumber::letter_twice, block.offset(second_tool_word)};
   const bool by_m = call.number >= m_macro;
   // M may be an argument of a G code; otherwise the code of the call is the only one.
   if (by_m ? block.g_count != 0 || block.m_count > 1 : block.g_count > 1 || block.m_count > 1)
@@ -183,10 +185,10 @@ Fault read_code_call(const Block& block, bool absolute, Call& call, Arguments& a
 }
 
 Fault read_call(const Block& block, Call& call) {
+  if (block.two_tools) return {AlarmNumber::letter_twice, block.offset(second_tool_word)};
   if (call.kind == CallKind::control) return check_beside(block, call);
   const bool fanuc = call.kind == CallKind::macro || call.kind == CallKind::modal_macro ||
                      call.kind == CallKind::block_macro;
-  if (block.two_tools) return {AlarmNumber::letter_twice, block.offset(second_tool_word)};
   // In a Fanuc call M is an argument; otherwise the code of the call is the only one.
   const std::size_t codes = std::size_t{block.g_count} + block.m_count;
   if (block.g_count > 1 || codes > (fanuc ? 2u : 1u)) return {AlarmNumber::call_not_alone, call.offset};

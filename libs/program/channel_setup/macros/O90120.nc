@@ -22,6 +22,7 @@ IF [#6 LE #4] THEN #3000=75 (G12 and G13: K must be above I)
 IF [#17 LE 0] THEN #3000=76 (G12 and G13: K needs a step Q above 0)
 IF [[#27 GT 0] && [[#4 GE 2*#27] || [#17 GE 2*#27]]] THEN #3000=77 (G12 and G13: with K, I and Q must be below the cutter diameter)
 ENDIF
+#30=#4030
 #33=#4003
 #34=#4001
 #13=0
@@ -38,7 +39,7 @@ ENDIF
 #20=#4-#27
 #21=#20
 IF [#6 NE #0] THEN #21=#6-#27
-G90
+G90 G91.1
 #14=1
 WHILE [#14 LE #12]
 IF [#26 NE #0] THEN G1 Z#26
@@ -60,6 +61,6 @@ G#2 X#31 Y#32 I[0-#23*#22/2] J0
 IF [#13 NE 0] THEN #26=#26+#13
 #14=#14+1
 ENDW
-G#33
+G#33 G#30
 IF [#34 LE 3] THEN G#34
 M99

@@ -13,6 +13,7 @@ IF [#11 GT 200] THEN #3000=55 (G37: H must be 1 .. 200)
 IF [[#4007 NE 40] || [#4009 NE 80]] THEN #3000=56 (G37 needs G40 and G80)
 IF [[#4011 NE 50] || [#4022 NE 50.1]] THEN #3000=57 (G37 needs G50 and G50.1)
 IF [[#4016 NE 69] || [#4018 NE 15]] THEN #3000=58 (G37 needs G69 and G15)
+IF [#4033 NE 0] THEN #3000=64 (G37 needs G54.4 P0)
 #31=0.0005
 IF [#4006 EQ 20] THEN #31=0.00002
 IF [ABS[#5083-#[2200+#11]-#[2000+#11]] GT #31] THEN #3000=59 (G37: the active length is not that of the table: G43 H again)

@@ -300,7 +300,7 @@ TEST(ChannelSetup, ProgramsAreInTheDialectOfTheChannel) {
     ChannelSetup setup(tables);
     return test::read(setup, "G4 F1\nM2").alarm;
   };
-  EXPECT_EQ(alarm(), 1108u) << "G4 of ISO needs P, X or U";
+  EXPECT_EQ(alarm(), 1540u) << "G4 of ISO has no F";
   tables.parameters.values[40959] = {1, ""};
   EXPECT_EQ(alarm(), 0u);
 }

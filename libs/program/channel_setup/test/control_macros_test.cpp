@@ -117,6 +117,7 @@ TEST(ToolMeasuring, AContactOutsideOfItsRangeIsAnAlarmAndChangesNothing) {
   EXPECT_TRUE(says(run(setup, begin + "G37 Z10 H2\n"), "H must be the active length"));
   EXPECT_TRUE(says(run(setup, begin + "G91 G37 Z-5\n"), "needs G90"));
   EXPECT_TRUE(says(run(setup, begin + "G49\nG37 Z10\n"), "needs G43"));
+  EXPECT_TRUE(says(run(setup, begin + "G54.4 P1\nG37 Z10\n"), "needs G54.4 P0"));
   EXPECT_TRUE(says(run(setup, begin + "#2001=3\nG37 Z10\n"), "is not that of the table"));
 }
 
@@ -221,7 +222,8 @@ TEST(CircularPocket, IsClearedToItsRadiusAndNoFarther) {
   for (const Case& c : {Case{"G13 I8 D1 Z-3 F200", 8, -3, false}, Case{"G12 I8 D1 Z-3 F200", 8, -3, true},
                         Case{"G13 I8 K20 Q7 D1 Z-3 F200", 20, -3, false},
                         Case{"G12 I9.9 K30.3 Q9.9 D1 F200 Z-1", 30.3, -1, true},
-                        Case{"D1\nG90 G13 X10 Y-5 I5.5 K6 Q4 Z-2 F200", 6, -2, false}}) {
+                        Case{"D1\nG90 G13 X10 Y-5 I5.5 K6 Q4 Z-2 F200", 6, -2, false},
+                        Case{"G90.1\nG13 I8 D1 Z-3 F200", 8, -3, false}}) {
     const Run result = run(setup, mill + "G0 X10 Y-5 Z2\n" + c.words + "\nG0 Z9\nM30\n");
     ASSERT_EQ(result.alarm, "") << c.words;
     const auto way = at_depth(way_of(setup, result, circle_macro, point_step), c.depth);
@@ -297,10 +299,11 @@ TEST(RectangularPocket, IsClearedToItsAllowanceInEveryPassAndNoFarther) {
       {"X30 Y44 Z-2 R0 I8.5 C6 K1", {3, 4, 15, 22, 6}, 1, {-2}},
       {"X10 Y40 Z-2 R0", {3, 4, 5, 20, 5}, 0, {-2}},                 // as wide as the cutter
       {"X33 Y33 Z-2 R0 C16.5", {3, 4, 16.5, 16.5, 16.5}, 0, {-2}}};  // a circle
+  const std::string begin = mill + "G90.1 G0 X3 Y4 Z9\nG65 P90150 D1 F500 E100 ";
   for (const Case& c : cases) {
-    const Run result =
-        run(setup, mill + "G0 X3 Y4 Z9\nG65 P90150 D1 F500 E100 " + c.words + "\nG0 X0\nM30\n");
+    const Run result = run(setup, begin + c.words + "\nG0 X0\nM30\n");
     ASSERT_EQ(result.alarm, "") << c.words;
+    EXPECT_TRUE(result.commands.back().modal.absolute_centres) << "G90.1 of the program stays";
     const auto way = way_of(setup, result, rectangle_macro, point_step);
     for (const double depth : c.depths) {
       const auto pass = at_depth(way, depth);

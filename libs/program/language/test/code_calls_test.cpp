@@ -88,6 +88,22 @@ TEST(CodeCalls, TheProgramsOfTheNumDialectHaveNone) {
   EXPECT_THAT(stream(run(machine, "%1\nM60\nM02\n")), ElementsAre("M60", "end 2"));
 }
 
+// The codes are the numbers that the program has: G77 is G87 of the table, G47 no code, and G112 not here.
+TEST(CodeCalls, OfHaasProgramsAreTheirOwnNumbers) {
+  TestMachine machine = machine_that_calls();
+  machine.dialect = ProgramDialect::haas;
+  machine.calls.g = {112, 47, 77};
+  machine.calls.m = {96};
+  machine.programs["O9012"] = std::make_unique<StringSource>("(DIALECT: ISO)\nG0 X#24\nM99\n");
+  machine.programs["O9020"] = std::make_unique<StringSource>("X9.\nM99\n");
+  EXPECT_THAT(stream(run(machine, "G112 X1. P2\nG47 X3.\nG77 X4.\nM96\nM30\n")),
+              ElementsAre("rapid X1 Y2", "rapid X3 Y2", "rapid X4 Y2", "rapid X9 Y2", "end 30"));
+  EXPECT_EQ(run(machine, "M3 S9\nG87 Z-1. R1. F100.\n").alarm.number, AlarmNumber::none)
+      << "G88 of the table";
+  EXPECT_EQ(run(machine, "G113\n").alarm.number, AlarmNumber::haas_function_missing);
+  EXPECT_EQ(run(machine, "M60 G36\n").alarm.number, AlarmNumber::haas_function_missing);
+}
+
 TEST(SubprogramCall, BeginsAtASequenceNumberInEachRepetition) {
   TestMachine machine;
   machine.programs["O0020"] =
@@ -103,6 +119,7 @@ TEST(SubprogramCall, QAloneIsASequenceNumberOfThisProgram) {
   TestMachine machine;
   EXPECT_THAT(stream(run(machine, "G0 Y1\nM98 Q20 L2\nX3\nM30\nN20 G91 X1\nG90\nM99\n")),
               ElementsAre("rapid Y1", "rapid X1 Y1", "rapid X2 Y1", "rapid X3 Y1", "end 30"));
+  EXPECT_EQ(run(machine, "M98 Q20 H5\nM30\nN20 X1\nN5 M99\n").alarm.number, AlarmNumber::unused_word);
   const auto result = run(machine, "M98 Q20\nM30\nO30\nN20 X1\nM99\n");
   EXPECT_EQ(result.alarm.number, AlarmNumber::label_missing);
   EXPECT_EQ(result.alarm.column, 5u);

@@ -17,7 +17,7 @@ namespace {
 using testing::ElementsAre;
 using Kind = HeadLine::Kind;
 
-// G4 F2 is a dwell of 2 s in the NUM dialect and alarm 1108 in the ISO dialect, G4 P2000 the same in the ISO
+// G4 F2 is a dwell of 2 s in the NUM dialect and alarm 1540 in the ISO dialect, G4 P2000 the same in the ISO
 // dialect and alarm 1154 in the NUM dialect.
 
 TestMachine machine_of(ProgramDialect dialect) {
@@ -73,7 +73,7 @@ TEST(DialectSelection, TheHeadGoesBeforeNameAndChannel) {
 TEST(DialectSelection, ACommentBehindTheHeadIsOne) {
   TestMachine machine = machine_of(ProgramDialect::iso);
   EXPECT_THAT(stream(run(machine, "G0 X1\n(DIALECT: NUM)\nG4 F2\nM2")),
-              ElementsAre("rapid X1", "alarm 1108 3:1"));
+              ElementsAre("rapid X1", "alarm 1540 3:1"));
 }
 
 TEST(DialectSelection, TheNameGoesBeforeTheChannel) {

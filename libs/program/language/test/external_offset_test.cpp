@@ -32,16 +32,16 @@ TEST(ExternalOffset, G10ChangesItAndTheNextWordIsInTheNewFrame) {
                          "G10 L2 P0 X50\nG0 X10\nG91 G10 L2 P0 X1 Y1\nG90 X10 Y0\n"
                          "G20 G91 G10 L2 P0 Z1\nG21 G90 G55 Z0\nM30\n")),
               // 50 + 10; 51 + 10 and 2 + 1; 300 + 3 + 25.4
-              ElementsAre("table 1 54 X50 Y2 Z3 A4 C5", "rapid X60", "table 1 54 X51 Y3 Z3 A4 C5",
-                          "rapid X61 Y3", "table 1 54 X51 Y3 Z28.4 A4 C5", "rapid X61 Y3 Z328.4", "end 30"));
+              ElementsAre("table1 54 X50 Y2 Z3 A4 C5", "rapid X60", "table1 54 X51 Y3 Z3 A4 C5",
+                          "rapid X61 Y3", "table1 54 X51 Y3 Z28.4 A4 C5", "rapid X61 Y3 Z328.4", "end 30"));
 }
 
 TEST(ExternalOffset, IsVariables5201AndFollowing) {
   TestMachine machine = machine_with_external_offset();
   EXPECT_THAT(stream(run(machine, "G0 X[#5201*10] Y#5206\n#5201=#5201+6\nG0 X0\nG20\n#5202=1\nG0 Y0\nM30\n")),
               // X 10 + 1, Y 5 + 2; X 0 + 7; Y 25.4
-              ElementsAre("rapid X11 Y7", "table 1 54 X7 Y2 Z3 A4 C5", "rapid X7 Y7",
-                          "table 1 54 X7 Y25.4 Z3 A4 C5", "rapid X7 Y25.4", "end 30"));
+              ElementsAre("rapid X11 Y7", "table1 54 X7 Y2 Z3 A4 C5", "rapid X7 Y7",
+                          "table1 54 X7 Y25.4 Z3 A4 C5", "rapid X7 Y25.4", "end 30"));
 }
 
 // A line of manual data input takes the tables as they are by then.
@@ -110,7 +110,7 @@ TEST(TableCodes, IncrementalWordsAddInEveryForm) {
   TestMachine machine = machine_with_external_offset();
   EXPECT_THAT(stream(run(machine, "G91 G10 P1 Z1 R0.5\nG10 L1 P1 R0.25\nG90 G10 L1 P1 R0\nM30\n")),
               // Length 50 + 1, radius 4 + 0.5; L1 is the wear of the length as L11: 0.5 + 0.25
-              ElementsAre("table 2 1 51", "table 4 1 4.5", "table 3 1 0.75", "table 3 1 0", "end 30"));
+              ElementsAre("table2 1 51", "table4 1 4.5", "table3 1 0.75", "table3 1 0", "end 30"));
 }
 
 }  // namespace

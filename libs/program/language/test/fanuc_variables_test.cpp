@@ -52,6 +52,11 @@ TEST(FanucVariables, WorkOffsetsByAxisAreToolsUnlessTheMachineSaysOtherwise) {
   EXPECT_THAT(kept_after(machine, text, 4), ElementsAre(1, 10, 2, 30));
   EXPECT_THAT(stream(run(machine, "#2602=5\nG55 Y0\nM30\n")),
               ElementsAre("table1 1 Y5", "rapid Y5", "end 30"));
+  machine.added = {0.5, 0.25, 0};
+  EXPECT_THAT(kept_after(machine, "#500=#2500\n#501=#2600\n#502=#2700\nM30\n", 3), ElementsAre(0.5, 0.25, 0));
+  EXPECT_THAT(stream(run(machine, "#2700=4\nG55 Z0\nM30\n")),
+              ElementsAre("table1 54 X0.5 Y0.25 Z4", "rapid Z4", "end 30"))
+      << "the external offset, which is added to that of G55";
 }
 
 TEST(FanucVariables, ModalWordsOfTheExecutedBlocksAreThoseOfTheBlocksBefore) {

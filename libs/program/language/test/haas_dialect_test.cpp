@@ -107,9 +107,18 @@ TEST(HaasDialect, M97CallsWhatBeginsAtASequenceNumber) {
               ElementsAre("rapid X1", "rapid X1 Y1", "rapid X2 Y1", "rapid X2 Y2", "end 30"));
   EXPECT_THAT(haas_stream("M97 P7\nM30\n"), ElementsAre("alarm 1407 1:5"));
   EXPECT_THAT(haas_stream("M97\nM30\n"), ElementsAre("alarm 1108 1:1"));
+  EXPECT_THAT(haas_stream("M97 P7 H5\nM30\nN7 X1\nN5 M99\n"), ElementsAre("alarm 1107 1:8"));
   EXPECT_THAT(haas_stream("M97 P7\nM30\nN7 X1\n"), ElementsAre("rapid X1", "alarm 1403 4:1"));
   EXPECT_EQ(alarm_of("M97 P7\nM30\nN7 M97 P7\nM99"), AlarmNumber::nesting_too_deep);
   EXPECT_EQ(alarm_of("M97 P7\nM30\nIF[1EQ1]\nN7 X1\nM99\nENDIF"), AlarmNumber::jump_into_structure);
+}
+
+TEST(HaasDialect, TextInFrontOfTheMarkOfTheTapeIsPassed) {
+  EXPECT_THAT(haas_stream("PLATE 12\n%\nO00012\nG0 X1.\nM30\n%\n"), ElementsAre("rapid X1", "end 30"));
+  TestMachine machine = haas_machine();
+  machine.dialect = ProgramDialect::iso;
+  EXPECT_THAT(stream(run(machine, "PLATE 12\n%\n(DIALECT: HAAS)\nG04 P1.5\nM30\n%\n")),
+              ElementsAre("dwell 1.5", "end 30"));
 }
 
 TEST(HaasDialect, M98CallsAProgramOfTheMemory) {

@@ -194,12 +194,12 @@ TEST(SettingError, ADirectionOutOfReachIsAnAlarm) {
 
 TEST(SettingError, ProgramsChangeTheTable) {
   TestMachine machine = three_axes();
-  EXPECT_THAT(stream(run(machine,
-                         "G54.4 P2\nG10 L23 P2 X1 C0\nG91 G10 L23 P2 X1 C180\nG90 G0 X10 Y0 Z0\n"
-                         "G20 G10 L23 P7 Z1\nM30\n")),
-              // Turned by 180 about Z, 2 beside the zero.
-              ElementsAre("table 1 56 X1", "table 1 56 X2 C180", "rapid X92 Y200 Z300", "table 1 61 Z25.4",
-                          "end 30"));
+  EXPECT_THAT(
+      stream(run(machine,
+                 "G54.4 P2\nG10 L23 P2 X1 C0\nG91 G10 L23 P2 X1 C180\nG90 G0 X10 Y0 Z0\n"
+                 "G20 G10 L23 P7 Z1\nM30\n")),
+      // Turned by 180 about Z, 2 beside the zero.
+      ElementsAre("table1 56 X1", "table1 56 X2 C180", "rapid X92 Y200 Z300", "table1 61 Z25.4", "end 30"));
 }
 
 TEST(SettingError, ALineOfManualDataInputFindsItWithTheTableAsItIs) {
