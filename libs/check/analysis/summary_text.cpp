@@ -152,7 +152,8 @@ std::string to_text(const SummaryReport& report) {
   text += highest_line(report);
   text += named_lines("no effect", figures.without_effect(), report.name);
   text += named_lines("unknown M code", figures.unknown_m(), report.name);
-  return text + warning_lines(report.warnings, report.name);
+  text += warning_lines(report.warnings, report.name);
+  return text;
 }
 
 }  // namespace trunnion::analysis
