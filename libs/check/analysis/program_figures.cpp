@@ -171,6 +171,7 @@ ToolFigures& ProgramFigures::tool(const Command& command) {
 void ProgramFigures::see(const Command& command, const Command& move, const AxisValues& from,
                          const std::optional<Motion>& motion, const language::Interpreter& interpreter) {
   if (command.kind == CommandKind::dwell) time_.dwell += command.dwell_seconds;
+  if (command.kind == CommandKind::print) ++printed_;
   if (command.kind == CommandKind::auxiliary && command.number == tool_change) {
     ++changes_;
     ++tool(command).changes;

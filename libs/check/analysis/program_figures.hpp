@@ -75,6 +75,8 @@ class ProgramFigures {
   std::uint32_t changes() const { return changes_; }
   double rapid_length() const { return rapid_length_; }
   double cut_length() const { return cut_length_; }
+  /// Lines of DPRNT.
+  std::uint64_t printed() const { return printed_; }
   const std::array<OffsetFigures, language::work_offset_count>& offsets() const { return offsets_; }
   /// Machine coordinates of all moves; nothing without a machine or a move.
   const std::optional<channel_setup::AxisBox>& axes() const { return axes_; }
@@ -108,6 +110,7 @@ class ProgramFigures {
   std::size_t tool_ = 0;  // of tools_, the newest one
   TimeFigures time_;
   std::uint32_t changes_ = 0;
+  std::uint64_t printed_ = 0;
   double rapid_length_ = 0, cut_length_ = 0;
   std::array<OffsetFigures, language::work_offset_count> offsets_{};
   std::optional<channel_setup::AxisBox> axes_;

@@ -203,6 +203,13 @@ TEST(ProgramSummary, MCodesThatNeedNoLogicAreKnown) {
   EXPECT_THAT(calls.text, HasSubstr("calls    O9020, O9001\n"));
 }
 
+TEST(ProgramSummary, CountsTheLinesThatAreWrittenToAFile) {
+  const auto summary = on_ac_table("G21 G90 G54\nG0 X1\nDPRNT[A]\nDPRNT[B]\nM30\n");
+  EXPECT_EQ(summary.json["printed_lines"], 2);
+  EXPECT_THAT(summary.text, HasSubstr("prints   2 lines of DPRNT\n"));
+  EXPECT_THAT(on_ac_table("G21 G90 G54\nG0 X1\nM30\n").text, Not(HasSubstr("DPRNT")));
+}
+
 TEST(ProgramSummary, SequenceNumbersAndM198AreCallsToo) {
   const auto summary = on_ac_table("G21 G90 G54\nM98 Q10\nM198 P7\nM30\nN10 G0 X1\nM99\nO7\nG0 X2\nM99\n");
   EXPECT_TRUE(summary.good) << summary.text;
