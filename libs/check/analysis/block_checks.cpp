@@ -17,6 +17,8 @@ using language::Block;
 using language::Group;
 using language::SeenBlock;
 
+constexpr std::uint32_t measuring_cycle = 9960;  // CYCLE9960, which touches
+
 /// Byte of the first of `letters` in the line; 0 when the block has none.
 std::size_t first_of(const Block& block, std::uint32_t letters) {
   std::size_t first = SIZE_MAX;
@@ -45,7 +47,8 @@ void BlockChecks::see(const SeenBlock& seen) {
   one_block_ = 0;
   num_ = seen.dialect == language::ProgramDialect::num;
   if (!num_) check_condition(seen);
-  if (block.statement == language::Statement::call_cycle) probes_ = true;
+  const bool called = block.statement == language::Statement::call_cycle;
+  probes_ = probes_ || (called && block.program_number == measuring_cycle);
   if (block.empty() && block.statement == language::Statement::none) return;
   if (seen.program == 0) last_line_ = seen.number, returns_ = has_m(block, 99);
   calls_ = block_calls_.find(seen) && block_calls_.takes_letters();
