@@ -155,6 +155,8 @@ TEST(Warnings, GoodProgramsHaveNone) {
                "G21 G90 G54 G17\nG53 G0 Z0\nT1 M6\nS1000 M3\nG0 X0 Y0\nG43 H1 Z50\nG1 Z40 F500\nM30\n"),
            // A quarter and half a degree about X10 Y5.
            prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG90.1\nG3 X9.9564 Y9.9998 I10 J5\nG1 X0\nM30\n",
+           // Words of a rotation, of which R would be a circle of nearly a full turn.
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG3 X2 Y0 I-4 J0\nG68 X0 Y0 R-1\nG69\nG1 X0\nM30\n",
            prelude + "G0 Z50\nM99\n",
        })
     EXPECT_THAT(warnings_of(program), IsEmpty()) << program;
