@@ -45,7 +45,7 @@ MACHINES = {
     'lathe': {'of': 'lathe', 'tools': 99},
 }
 FUNCTIONS = '"040944": 3 4 5 19; 6; 7 8 9'
-M_CODES = [code for code in range(10, 1000) if code != 19]
+M_CODES = [code for code in range(10, 10000) if code != 19]
 
 
 class Row(dict):

@@ -59,7 +59,7 @@ def parameters():
     out = ["# Parameters", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
            "The number of a parameter is the base of its class, plus 1000 for each unit (channel c, axis a), plus the offset: `10a034` is 100034 "
            "for axis 0 and 112034 for axis 12. Activation: *save* takes effect at once, *reset* at the next reset of a channel, *restart* at the "
-           "start of the cluster. The numbers are those of the HNC-8 manual, with two exceptions: offsets 900 and above, and those of channels from 730 on, are Trunnion's own, and "
+           "start of the cluster. The numbers are those of the HNC-8 manual, with two exceptions: offsets 900 and above, and those of channels from 680 on, are Trunnion's own, and "
            "the manual does not define 30a020 to 30a024 and the numbers that are marked as inferred. Values are changed with `trunnion param`, on the "
            "page, or with `PUT /api/parameters/{number}`.", ""]
     known = set()

@@ -104,9 +104,11 @@ int run_check(const CheckOptions& options) {
   const auto name = [&](std::uint32_t program) {
     return program == 0 ? options.program : programs.path(language::ProgramName(program).view());
   };
-  analysis::CheckOptions check_options{options.json_lines, options.skip_blocks};
-  const auto dialect = canonical::dialect_named(options.dialect);
+  analysis::CheckOptions check_options;
+  check_options.json_lines = options.json_lines;
+  check_options.skip_blocks = options.skip_blocks;
   check_options.json = options.json;
+  const auto dialect = canonical::dialect_named(options.dialect);
   ProgressLine progress;
   if (options.summary && isatty(STDERR_FILENO) != 0)
     check_options.progress = [&](std::uint64_t line, std::uint64_t lines) { progress.show(line, lines); };

@@ -49,7 +49,7 @@ idl::parameters::ParameterRequest tool_removal(std::uint32_t number, const std::
 /// {"name": "..."}: the new name of the program `name`.
 idl::program::ProgramRequest rename_request(const std::string& name, const bus::Json& body);
 
-/// {"channel": n, "index": 0..53, "values": [9 numbers], "revision": n}.
+/// {"channel": n, "index": 0..61, "values": [9 numbers], "revision": n}.
 idl::parameters::ParameterRequest work_offset_request(const bus::Json& body);
 
 }  // namespace trunnion::gateway

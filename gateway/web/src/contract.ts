@@ -441,7 +441,7 @@ export interface ToolTable {
 
 export interface WorkOffset {
   channel: number;
-  /** 0 = G54 .. 5 = G59 */
+  /** 0 = G54 .. 5 = G59, 6 = G54.1 P1 .. 53 = G54.1 P48, 54 = external, added to all others, 55 .. 61 = setting errors G54.4 P1 .. P7 */
   index: number;
   /** X Y Z A B C U V W, mm and deg, machine coordinates of the workpiece zero */
   values: number[];
@@ -546,9 +546,13 @@ export interface ProgramCheck {
   blocks: number;
   /** Rapids, lines and arcs */
   moves: number;
+  dialect: ProgramDialect;
   error?: ProgramError;
   path: ProgramPath;
 }
+
+/** In which a program text is written: its head says so, else its name, else parameter 04c959. */
+export type ProgramDialect = "iso" | "num" | "linuxcnc" | "haas";
 
 /** Tool tip on the part: point i is reached in line[i], the first one is the start. Machine coordinates less G54, rotary tables at zero. Between the points the path is within the tolerance of straight lines. */
 export interface PlannedPath {
@@ -582,6 +586,7 @@ export interface ProgramPlan {
   moves: number;
   /** Why it cannot be executed further: line and cause */
   alarm?: string;
+  dialect: ProgramDialect;
   /** When the program comes to which line, in the order of execution; of more than 20000 the shortest stretches are left out */
   lines: { line: number[]; begin: number[]; };
   path: PlannedPath;

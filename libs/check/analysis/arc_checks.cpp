@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "analysis/block_codes.hpp"
@@ -28,20 +29,38 @@ constexpr double near_chord = 0.025;
 constexpr double nearly_full = 355.0 / 180 * pi;
 constexpr double turns_back = 150.0 / 180 * pi, smooth = 10.0 / 180 * pi;
 
+/// NUM programs have other words for a centre.
+bool is_num(const SeenBlock& seen) { return seen.dialect == language::ProgramDialect::num; }
+
+bool has_angle(const SeenBlock& seen) { return !is_num(seen) && seen.block.has(language::angle_word); }
+
+/// The words of the block are no end of a move, or its position counts in another frame.
+bool changes_frame(const Block& block) {
+  for (const Group group : {Group::work_offset, Group::tool_length, Group::stroke_zone, Group::setting_error,
+                            Group::scaling, Group::mirror, Group::rotation})
+    if (code_of(block, group)) return true;
+  return false;
+}
+
+/// I J K are coordinates, and not counted from the start.
+bool absolute_centres_in(const SeenBlock& seen) {
+  const FoundCode code = code_of(seen.block, Group::arc_distance);
+  return code ? code.is(901) : seen.modal.absolute_centres;
+}
+
 double between(double one, double other) { return std::abs(std::remainder(one - other, 2 * pi)); }
 
 }  // namespace
 
-// NUM programs have other words for a centre.
 ArcChecks::ArcChecks(const language::Environment& environment, Warnings& warnings)
-    : environment_(environment),
-      warnings_(warnings),
-      reads_circles_(environment.program_dialect() != language::ProgramDialect::num) {}
+    : environment_(environment), warnings_(warnings) {}
 
 void ArcChecks::see(const SeenBlock& seen, bool calls) {
-  if (!reads_circles_ || seen.block.empty()) return;
+  if (seen.block.empty()) return;
   finish(seen.position);
   path_ = path_of(seen, calls);
+  // The block with ,A alone ends where the next one says.
+  if (has_angle(seen)) before_known_ = doubtful_ = false;
 }
 
 ArcChecks::Path ArcChecks::path_of(const SeenBlock& seen, bool calls) const {
@@ -52,8 +71,9 @@ ArcChecks::Path ArcChecks::path_of(const SeenBlock& seen, bool calls) const {
   Path path;
   path.start = seen.position;
   if (calls || in_cycle || code_of(block, Group::one_block) || seen.modal.tool_vector) return path;
+  if (is_num(seen) || has_angle(seen) || changes_frame(block)) return path;
   if (code < 1 || code > 3) return path;
-  path.kind = Kind::straight;
+  if ((block.letters & language::axis_bits) != 0) path.kind = Kind::straight;
   const FoundCode plane = code_of(block, Group::plane);
   path.plane = !plane          ? seen.modal.plane
                : plane.is(180) ? language::Plane::zx
@@ -65,8 +85,11 @@ ArcChecks::Path ArcChecks::path_of(const SeenBlock& seen, bool calls) const {
   const char letters[] = {static_cast<char>('I' + axes.first), static_cast<char>('I' + axes.second)};
   path.turn = code == 3 ? 1 : -1;
   path.radius = block.has('R') ? block.value('R') * scale : 0;
-  for (std::size_t k = 0; k < 2; ++k)
-    path.centre[k] = block.has(letters[k]) ? block.value(letters[k]) * scale : 0;
+  const std::size_t in_plane[] = {axes.first, axes.second};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double from = absolute_centres_in(seen) ? path.start[in_plane[k]] : 0;
+    path.centre[k] = block.has(letters[k]) ? block.value(letters[k]) * scale - from : 0;
+  }
   path.kind = block.has('R')                                   ? Kind::radius
               : block.has(letters[0]) || block.has(letters[1]) ? Kind::centre
                                                                : Kind::none;

@@ -46,7 +46,6 @@ class ArcChecks {
 
   const language::Environment& environment_;
   Warnings& warnings_;
-  bool reads_circles_ = true;
   Path path_;
   bool before_known_ = false;
   double before_ = 0;  // the direction in which the path before ends

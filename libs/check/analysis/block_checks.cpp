@@ -17,6 +17,8 @@ using language::Block;
 using language::Group;
 using language::SeenBlock;
 
+constexpr std::uint32_t measuring_cycle = 9960;  // CYCLE9960, which touches
+
 /// Byte of the first of `letters` in the line; 0 when the block has none.
 std::size_t first_of(const Block& block, std::uint32_t letters) {
   std::size_t first = SIZE_MAX;
@@ -34,10 +36,8 @@ WarningPlace place_of(const SeenBlock& seen, std::size_t offset) {
 BlockChecks::BlockChecks(const language::Environment& environment, bool functions_known, Warnings& warnings)
     : warnings_(warnings),
       functions_known_(functions_known),
-      iso_(environment.program_dialect() != language::ProgramDialect::num) {
-  for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i)
-    cycle_m_codes_[i] = iso_ ? environment.cycle_m_code(i) : std::uint16_t{0};
-}
+      makes_ready_(environment.two_tool_words() == language::TwoToolWords::change_and_ready),
+      block_calls_(environment) {}
 
 void BlockChecks::see(const SeenBlock& seen) {
   const Block& block = seen.block;
@@ -45,19 +45,22 @@ void BlockChecks::see(const SeenBlock& seen) {
   offset_ = first_of(block, language::axis_bits);
   line_.assign(seen.line);
   one_block_ = 0;
-  if (iso_) check_condition(seen);
-  if (block.statement == language::Statement::call_cycle) probes_ = true;
+  num_ = seen.dialect == language::ProgramDialect::num;
+  if (!num_) check_condition(seen);
+  const bool called = block.statement == language::Statement::call_cycle;
+  probes_ = probes_ || (called && block.program_number == measuring_cycle);
   if (block.empty() && block.statement == language::Statement::none) return;
   if (seen.program == 0) last_line_ = seen.number, returns_ = has_m(block, 99);
-  language::Call call;
-  calls_ = language::find_call(block, cycle_m_codes_, call);
+  calls_ = block_calls_.find(seen) && block_calls_.takes_letters();
   if (calls_ || block.empty()) return;
-  check_change(seen);
-  check_length(seen);
-  check_radius(seen);
-  check_return(seen);
-  check_m(seen);
-  note(seen);
+  const SeenBlock rest{block_calls_.rest(), seen.line,     seen.program, seen.number,
+                       seen.modal,          seen.position, seen.dialect};
+  check_change(rest);
+  check_length(rest);
+  check_radius(rest);
+  check_return(rest);
+  check_m(rest);
+  note(rest);
 }
 
 void BlockChecks::note(const SeenBlock& seen) {
@@ -69,7 +72,7 @@ void BlockChecks::note(const SeenBlock& seen) {
   stated_.work_offset = stated_.work_offset || code_of(block, Group::work_offset);
   // F of a search for references is its speed, and no feed.
   stated_.feed = stated_.feed || (block.has('F') && !positions.is(282) && !positions.is(1590));
-  probes_ = probes_ || positions.is(310);
+  probes_ = probes_ || (positions && positions.code->tenths / 10 == 31);  // G31, G31.1 to G31.3
 }
 
 // A T may be in the block of its M6 or in one before.
@@ -83,7 +86,13 @@ void BlockChecks::check_change(const SeenBlock& seen) {
       if (block.m[i].value == 6) at = block.m[i].offset;
     warnings_.add(WarningKind::change_without_tool, place_of(seen, at));
   }
-  selected_ = false;
+  selected_ = block.two_tools && makes_ready_;
+}
+
+double BlockChecks::changed_to(const SeenBlock& seen) const {
+  const Block& block = seen.block;
+  if (!block.has('T')) return seen.modal.selected_tool;
+  return block.value(block.two_tools && !makes_ready_ ? language::second_tool_word : 'T');
 }
 
 void BlockChecks::check_length(const SeenBlock& seen) {
@@ -91,7 +100,7 @@ void BlockChecks::check_length(const SeenBlock& seen) {
   const FoundCode length = code_of(block, Group::tool_length);
   if (!length || length.is(490) || !block.has('H')) return;
   double tool = seen.modal.tool;
-  if (has_m(block, 6)) tool = block.has('T') ? block.value('T') : seen.modal.selected_tool;
+  if (has_m(block, 6)) tool = changed_to(seen);
   const double entry = block.value('H');
   if (!(tool > 0) || !(entry > 0) || entry == tool) return;
   auto* const warning = warnings_.add(WarningKind::other_length, place_of(seen, block.offset('H')),

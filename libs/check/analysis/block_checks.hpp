@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <string>
 
+#include "analysis/block_calls.hpp"
 #include "analysis/warnings.hpp"
 #include "language/block_watch.hpp"
 #include "language/environment.hpp"
-#include "language/macro_call.hpp"
 
 namespace trunnion::analysis {
 
@@ -32,6 +32,8 @@ class BlockChecks {
   }
   /// Of that block: where its first axis word is, or its line.
   WarningPlace place() const { return place_in(program_, number_, line_, offset_); }
+  /// It is written in the NUM dialect.
+  bool num() const { return num_; }
   /// It calls a macro or a cycle of the user: its letters are arguments.
   bool calls() const { return calls_; }
   /// Tenths of its code that moves the axes in a way of its own (G28, G53 ...), or 0.
@@ -50,6 +52,8 @@ class BlockChecks {
  private:
   void note(const language::SeenBlock& seen);
   void check_change(const language::SeenBlock& seen);
+  /// The tool that M6 of the block brings into the spindle.
+  double changed_to(const language::SeenBlock& seen) const;
   void check_length(const language::SeenBlock& seen);
   void check_radius(const language::SeenBlock& seen);
   void check_return(const language::SeenBlock& seen);
@@ -58,8 +62,9 @@ class BlockChecks {
 
   Warnings& warnings_;
   bool functions_known_ = false;
-  language::CycleMCodes cycle_m_codes_{};
-  bool iso_ = true;
+  bool makes_ready_ = false;  // of two T words the second one is for the next M6
+  BlockCalls block_calls_;
+  bool num_ = false;
   Stated stated_;
   bool selected_ = false;  // a T came since the newest M6
   bool probes_ = false, spindle_by_logic_ = false, returns_ = false, calls_ = false;

@@ -14,8 +14,8 @@ using language::Scanner;
 
 constexpr std::array<std::string_view, 6> comparisons = {"EQ", "NE", "GT", "GE", "LT", "LE"};
 constexpr std::array<std::string_view, 3> connections = {"AND", "OR", "XOR"};
-constexpr std::array<std::string_view, 3> condition_words = {"ELSEIF", "WHILE", "IF"};
-constexpr std::array<std::string_view, 3> words_behind = {"GOTO", "THEN", "DO"};
+constexpr std::array<std::string_view, 2> condition_words = {"ELSEIF", "IF"};
+constexpr std::array<std::string_view, 2> words_behind = {"GOTO", "DO"};
 
 template <std::size_t size>
 bool take_any(Scanner& scanner, const std::array<std::string_view, size>& words) {
@@ -49,11 +49,13 @@ bool compares(Scanner& scanner) {
 
 std::string_view condition_of(std::string_view line) {
   Scanner scanner(line);
-  if (!skip_to_statement(scanner) || !take_any(scanner, condition_words)) return {};
+  if (!skip_to_statement(scanner)) return {};
+  if (!take_any(scanner, condition_words) && !language::take_abbreviated(scanner, "WHILE")) return {};
   const std::size_t from = scanner.offset();
   while (!scanner.at_end() && scanner.peek() != ';' && scanner.peek() != '(') {
     const std::size_t here = scanner.offset();
-    if (take_any(scanner, words_behind)) return line.substr(from, here - from);
+    if (take_any(scanner, words_behind) || language::take_abbreviated(scanner, "THEN"))
+      return line.substr(from, here - from);
     scanner.advance();
   }
   return line.substr(from, scanner.offset() - from);

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <initializer_list>
@@ -20,7 +21,7 @@ constexpr double noticed_way = 0.1;    // mm of a rapid, along Z and beside it
 constexpr double noticed_turn = 1e-6;  // mm, degrees
 constexpr std::uint16_t rotary_axes = 1u << language::A | 1u << language::B | 1u << language::C;
 // Codes of the block in tenths.
-constexpr std::uint16_t swing = 531, swing_about_tip = 532;
+constexpr std::array<std::uint16_t, 3> swings = {531, 532, 536};
 
 bool at_feed(CommandKind kind) {
   return kind == CommandKind::line || kind == CommandKind::arc || kind == CommandKind::tap ||
@@ -43,8 +44,7 @@ MotionChecks::MotionChecks(const language::Environment& environment, bool length
       blocks_(blocks),
       warnings_(warnings),
       lengths_known_(lengths_known),
-      several_rotary_(std::popcount(static_cast<unsigned>(environment.axes() & rotary_axes)) > 1),
-      num_(environment.program_dialect() == language::ProgramDialect::num) {}
+      several_rotary_(std::popcount(static_cast<unsigned>(environment.axes() & rotary_axes)) > 1) {}
 
 void MotionChecks::see(const Command& command, const AxisValues& from, const std::optional<Motion>& motion) {
   const auto& modal = command.modal;
@@ -55,7 +55,7 @@ void MotionChecks::see(const Command& command, const AxisValues& from, const std
   if (!motion || command.kind == CommandKind::home) return;
   const std::uint16_t code = blocks_.has(command) ? blocks_.one_block() : std::uint16_t{0};
   if (code == 0) check_stated(command);
-  if (code == swing || code == swing_about_tip) return;
+  if (std::find(swings.begin(), swings.end(), code) != swings.end()) return;
   const double down = from[language::Z] - command.target[language::Z];
   if (command.kind == CommandKind::rapid && code == 0) check_rapid(command, from, *motion);
   if (!at_feed(command.kind)) return;
@@ -79,9 +79,9 @@ void MotionChecks::check_stated(const Command& command) {
   const auto add = [&](bool there, const char* codes) {
     if (!there) missing += fmt::format("{}{}", missing.empty() ? "" : ", ", codes);
   };
-  add(stated.units, num_ ? "G70 or G71" : "G20 or G21");
+  add(stated.units, blocks_.num() ? "G70 or G71" : "G20 or G21");
   add(stated.distance, "G90 or G91");
-  add(stated.work_offset || num_, "G54 to G59");
+  add(stated.work_offset || blocks_.num(), "G54 to G59");
   if (missing.empty()) return;
   if (auto* const warning = warnings_.add(WarningKind::head, place(command))) warning->detail = missing;
 }

@@ -36,7 +36,7 @@ class MotionChecks {
   const language::Environment& environment_;
   const BlockChecks& blocks_;
   Warnings& warnings_;
-  bool lengths_known_ = false, several_rotary_ = false, num_ = false;
+  bool lengths_known_ = false, several_rotary_ = false;
   bool ended_ = false;  // by M30 or M2
   bool head_checked_ = false, first_feed_seen_ = false, probes_ = false;
   std::optional<WarningPlace> without_spindle_;

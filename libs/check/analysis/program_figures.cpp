@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "analysis/block_codes.hpp"
@@ -22,6 +23,8 @@ using language::SeenBlock;
 constexpr std::size_t most_named = 1000;  // of a list: a program of another kind could fill the memory
 constexpr std::uint32_t tool_change = 6;
 constexpr double seconds_of_minute = 60;
+constexpr double highest_program = 999999999;
+constexpr std::array<std::uint16_t, 4> machine_places = {270, 280, 300, 530};  // tenths of the codes
 
 WarningPlace line_of(const Command& command) { return {command.program, command.line, 1}; }
 
@@ -77,37 +80,51 @@ std::string work_offset_name(std::size_t index) {
 ProgramFigures::ProgramFigures(const language::Environment& environment,
                                const channel_setup::ChannelSetup* machine,
                                const language::MFunctions* functions)
-    : machine_(machine), functions_(functions) {
-  if (environment.program_dialect() == language::ProgramDialect::num) return;
-  for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment.cycle_m_code(i);
-}
+    : machine_(machine), functions_(functions), block_calls_(environment) {}
 
 void ProgramFigures::begin(const SeenBlock& seen) {
   block_program_ = seen.program, block_line_ = seen.number;
   in_machine_coordinates_ = false;
   if (seen.block.statement == language::Statement::call_cycle)
     add_named(calls_, fmt::format("CYCLE{}", seen.block.program_number), seen, seen.block.at);
-  if (seen.block.g_count == 0 && seen.block.m_count == 0) return;
-  if (!note_calls(seen)) note_codes(seen);
+  if (seen.block.empty() || note_calls(seen)) return;
+  note_codes(
+      {block_calls_.rest(), seen.line, seen.program, seen.number, seen.modal, seen.position, seen.dialect});
 }
 
 bool ProgramFigures::note_calls(const SeenBlock& seen) {
-  const auto& block = seen.block;
-  for (std::size_t i = 0; i < block.m_count; ++i) {
-    if (block.m[i].value != 98) continue;
-    const double p = block.has('P') ? block.value('P') : 0;
-    const auto number = block.called != 0 ? block.called : static_cast<std::uint32_t>(std::abs(p));
-    add_named(calls_, std::string(language::ProgramName(number).view()), seen, block.m[i].offset);
-  }
-  language::Call call;
-  if (!language::find_call(block, cycle_m_codes_, call)) return false;
-  const bool complete = !language::read_call(block, call);
+  note_subprograms(seen);
+  if (!block_calls_.find(seen)) return false;
+  language::Call call = block_calls_.call();
+  const bool complete = call.by_code || !language::read_call(seen.block, call);
   if (!complete || call.kind == language::CallKind::modal_cancel) return true;
   const bool cycle = call.kind == language::CallKind::cycle;
   const std::string name =
       cycle ? fmt::format("G{}", call.number) : std::string(language::ProgramName(call.number).view());
   add_named(calls_, name, seen, call.offset);
-  return true;
+  return block_calls_.takes_letters();
+}
+
+// Of M98 with Q alone, and of Haas' M97, the sequence number of the same program.
+void ProgramFigures::note_subprograms(const SeenBlock& seen) {
+  const auto& block = seen.block;
+  const bool label = block.called == 0 && (block.local_call || !block.has('P'));
+  const char letter = block.has('P') ? 'P' : 'Q';
+  if (block.called == 0 && !block.has(letter)) return;
+  const double word = block.called != 0 ? block.called : block.value(letter);
+  if (!(word >= 0 && word <= highest_program)) return;
+  for (std::size_t i = 0; i < block.m_count; ++i) {
+    if (block.m[i].value != 98 && block.m[i].value != 198) continue;
+    const auto number = static_cast<std::uint32_t>(word);
+    const std::string name =
+        label ? fmt::format("N{}", number) : std::string(language::ProgramName(number).view());
+    add_named(calls_, name, seen, block.m[i].offset);
+  }
+}
+
+bool ProgramFigures::is_unknown(std::uint16_t m) const {
+  const bool flow = language::m_code(m).group == language::MGroup::flow;
+  return functions_ != nullptr && !flow && !language::is_granted(m) && !functions_->has(m);
 }
 
 void ProgramFigures::note_codes(const SeenBlock& seen) {
@@ -117,20 +134,19 @@ void ProgramFigures::note_codes(const SeenBlock& seen) {
     if (code == nullptr) continue;
     const bool drills = code->group == language::Group::cycle && code->tenths != 800;
     if (drills || is_pattern(code->tenths)) add_named(cycles_, g_name(*code), seen, block.g[i].offset);
-    if (code->tenths == 530 || code->tenths == 280 || code->tenths == 300) in_machine_coordinates_ = true;
+    const bool to_machine =
+        std::find(machine_places.begin(), machine_places.end(), code->tenths) != machine_places.end();
+    in_machine_coordinates_ = in_machine_coordinates_ || to_machine;
     const char* const reason = code->no_effect;
     if (reason == nullptr) continue;
     if (auto* const named = add_named(without_effect_, g_name(*code), seen, block.g[i].offset))
       named->text = reason;
   }
-  for (std::size_t i = 0; i < block.m_count && functions_ != nullptr; ++i) {
+  for (std::size_t i = 0; i < block.m_count; ++i) {
     const double value = block.m[i].value;
     if (!(value >= 0 && value <= language::highest_m) || value != std::floor(value)) continue;
     const auto number = static_cast<std::uint16_t>(value);
-    const bool flow = language::m_code(number).group == language::MGroup::flow;
-    const bool called =
-        std::find(cycle_m_codes_.begin(), cycle_m_codes_.end(), number) != cycle_m_codes_.end();
-    if (flow || called || functions_->has(number)) continue;
+    if (!is_unknown(number)) continue;
     auto* const named = add_named(unknown_m_, fmt::format("M{}", number), seen, block.m[i].offset);
     const auto* const word = language::foreign_m(number);
     if (named != nullptr && word != nullptr)
@@ -153,8 +169,9 @@ ToolFigures& ProgramFigures::tool(const Command& command) {
 }
 
 void ProgramFigures::see(const Command& command, const Command& move, const AxisValues& from,
-                         const std::optional<Motion>& motion) {
+                         const std::optional<Motion>& motion, const language::Interpreter& interpreter) {
   if (command.kind == CommandKind::dwell) time_.dwell += command.dwell_seconds;
+  if (command.kind == CommandKind::print) ++printed_;
   if (command.kind == CommandKind::auxiliary && command.number == tool_change) {
     ++changes_;
     ++tool(command).changes;
@@ -169,7 +186,7 @@ void ProgramFigures::see(const Command& command, const Command& move, const Axis
     note_rapid(*motion, used);
   else
     note_feed(command, *motion, used);
-  note_tip(command, from, *motion);
+  note_tip(command, from, interpreter);
   if (machine_ == nullptr) return;
   const auto box = channel_setup::extent_of(from, move, machine_->chain());
   if (axes_)
@@ -208,17 +225,19 @@ void ProgramFigures::note_feed(const Command& command, const Motion& motion, Too
   if (*motion.feed > highest_feed_.value) highest_feed_ = {*motion.feed, line_of(command)};
 }
 
-// In the frame of the command the way is parallel to that in the workpiece. A rapid comes from anywhere: its
-// begin is the end of the move before.
-void ProgramFigures::note_tip(const Command& command, const AxisValues& from, const Motion& motion) {
+// A rapid comes from anywhere: its begin is the end of the move before.
+void ProgramFigures::note_tip(const Command& command, const AxisValues& from,
+                              const language::Interpreter& interpreter) {
   const bool current = command.program == block_program_ && command.line == block_line_;
   if (current && in_machine_coordinates_) return;
   OffsetFigures& figures = offsets_[command.modal.work_offset];
+  Command place = command;
   const auto include = [&](const AxisValues& point) {
+    place.target = point;
+    const AxisValues at = interpreter.workpiece(place);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double at = point[axis] + (motion.wcs[axis] - command.target[axis]);
-      figures.low[axis] = figures.used ? std::min(figures.low[axis], at) : at;
-      figures.high[axis] = figures.used ? std::max(figures.high[axis], at) : at;
+      figures.low[axis] = figures.used ? std::min(figures.low[axis], at[axis]) : at[axis];
+      figures.high[axis] = figures.used ? std::max(figures.high[axis], at[axis]) : at[axis];
     }
     figures.used = true;
   };

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "analysis/block_calls.hpp"
 #include "analysis/motion_tracker.hpp"
 #include "analysis/warnings.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "language/block_watch.hpp"
-#include "language/macro_call.hpp"
 
 namespace trunnion::analysis {
 
@@ -65,15 +65,18 @@ class ProgramFigures {
                  const language::MFunctions* functions);
 
   void begin(const language::SeenBlock& seen);
-  /// `move` is what motion gets of the command, `from` where it begins, in its frame.
+  /// `move` is what motion gets of the command, `from` where it begins, in its frame; `interpreter` has just
+  /// given the command.
   void see(const language::Command& command, const language::Command& move, const language::AxisValues& from,
-           const std::optional<Motion>& motion);
+           const std::optional<Motion>& motion, const language::Interpreter& interpreter);
 
   const std::vector<ToolFigures>& tools() const { return tools_; }
   const TimeFigures& time() const { return time_; }
   std::uint32_t changes() const { return changes_; }
   double rapid_length() const { return rapid_length_; }
   double cut_length() const { return cut_length_; }
+  /// Lines of DPRNT.
+  std::uint64_t printed() const { return printed_; }
   const std::array<OffsetFigures, language::work_offset_count>& offsets() const { return offsets_; }
   /// Machine coordinates of all moves; nothing without a machine or a move.
   const std::optional<channel_setup::AxisBox>& axes() const { return axes_; }
@@ -89,27 +92,32 @@ class ProgramFigures {
 
  private:
   ToolFigures& tool(const language::Command& command);
-  /// Whether the letters of the block are arguments.
+  /// Whether the letters of the block are arguments; else block_calls_.rest() is what it does besides.
   bool note_calls(const language::SeenBlock& seen);
+  void note_subprograms(const language::SeenBlock& seen);
   void note_codes(const language::SeenBlock& seen);
+  /// The logic of the machine must have it.
+  bool is_unknown(std::uint16_t m) const;
   void note_rapid(const Motion& motion, ToolFigures& tool);
   void note_feed(const language::Command& command, const Motion& motion, ToolFigures& tool);
-  void note_tip(const language::Command& command, const language::AxisValues& from, const Motion& motion);
+  void note_tip(const language::Command& command, const language::AxisValues& from,
+                const language::Interpreter& interpreter);
 
   const channel_setup::ChannelSetup* machine_;
   const language::MFunctions* functions_;
-  language::CycleMCodes cycle_m_codes_{};
+  BlockCalls block_calls_;
   std::vector<ToolFigures> tools_;
   std::size_t tool_ = 0;  // of tools_, the newest one
   TimeFigures time_;
   std::uint32_t changes_ = 0;
+  std::uint64_t printed_ = 0;
   double rapid_length_ = 0, cut_length_ = 0;
   std::array<OffsetFigures, language::work_offset_count> offsets_{};
   std::optional<channel_setup::AxisBox> axes_;
   std::vector<NamedFigure> calls_, cycles_, without_effect_, unknown_m_;
   Highest highest_speed_, highest_feed_;
   std::uint32_t block_program_ = 0, block_line_ = 0;
-  bool in_machine_coordinates_ = false;  // the block goes to a place of the machine: G53, G28, G30
+  bool in_machine_coordinates_ = false;  // the block goes to a place of the machine: G53, G27, G28, G30
 };
 
 /// "G54" .. "G59", "G54.1 P1" .. of ModalState::work_offset.

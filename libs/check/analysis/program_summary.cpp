@@ -46,7 +46,7 @@ class SummaryRun final : public language::BlockWatch {
     reader.on_command = [&](const language::Command& command, const language::Command& move) {
       const auto motion = tracker.follow(command, move);
       survey_.see(command, reader.from(), motion);
-      figures_.see(command, move, reader.from(), motion);
+      figures_.see(command, move, reader.from(), motion, reader.interpreter());
     };
     reader.stop = [&] {
       if (options.progress) options.progress(reader.interpreter().main_line(), lines);

@@ -139,6 +139,7 @@ std::string to_json(const SummaryReport& report) {
   json["cycles"] = named_json(figures.cycles(), report);
   json["highest"] = {{"speed", highest_json(figures.highest_speed(), report)},
                      {"feed", highest_json(figures.highest_feed(), report)}};
+  json["printed_lines"] = figures.printed();
   json["no_effect"] = named_json(figures.without_effect(), report);
   json["unknown_m"] = named_json(figures.unknown_m(), report);
   json["warnings"] = warnings_json(report);

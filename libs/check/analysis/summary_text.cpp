@@ -150,9 +150,11 @@ std::string to_text(const SummaryReport& report) {
   text += list_line("calls", figures.calls());
   text += list_line("cycles", figures.cycles());
   text += highest_line(report);
+  if (figures.printed() > 0) text += fmt::format("prints   {} lines of DPRNT\n", figures.printed());
   text += named_lines("no effect", figures.without_effect(), report.name);
   text += named_lines("unknown M code", figures.unknown_m(), report.name);
-  return text + warning_lines(report.warnings, report.name);
+  text += warning_lines(report.warnings, report.name);
+  return text;
 }
 
 }  // namespace trunnion::analysis

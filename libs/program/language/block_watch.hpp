@@ -7,6 +7,7 @@
 
 #include "language/block.hpp"
 #include "language/canonical.hpp"
+#include "language/text_source.hpp"
 
 namespace trunnion::language {
 
@@ -18,6 +19,7 @@ struct SeenBlock {
   std::uint32_t number;        ///< of the line, from 1
   const ModalState& modal;     ///< behind the block before it
   const AxisValues& position;  ///< likewise, in program coordinates: mm and degrees
+  ProgramDialect dialect;      ///< of the text
 };
 
 class BlockWatch {

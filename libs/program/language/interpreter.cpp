@@ -299,7 +299,7 @@ Interpreter::State Interpreter::execute_block(std::string_view line) {
   if (block_.statement != Statement::none || !block_.empty()) ++blocks_;
   if (block_watch_ != nullptr)
     block_watch_->begin(
-        {block_, line, level.program, line_, executor_.modal(), executor_.program_position()});
+        {block_, line, level.program, line_, executor_.modal(), executor_.program_position(), level.dialect});
   if (block_.has('N')) control_.set_sequence_number(block_.value('N'));
   if (block_.statement != Statement::none) {
     level.started = true;

@@ -46,7 +46,7 @@ export function tokens(line: string, marked = true): Token[] {
   let at = 0;
   const head = /^\s*(?:%(?:\s*[O:]?\s*\d+)?|[O:]\s*\d+|O?<[^>]*>)/i.exec(line) ?? /^\s*\/[1-9]?/.exec(line);
   if (head) {
-    found.push({ from: head[0].search(/\S/), to: head[0].length, kind: head[0].includes("/") ? "skip" : "head" });
+    found.push({ from: head[0].search(/\S/), to: head[0].length, kind: /^\s*\//.test(head[0]) ? "skip" : "head" });
     at = head[0].length;
     // The title of the tape.
     if (/^\s*%$/.test(head[0]) && line.slice(at).trim() !== "") {

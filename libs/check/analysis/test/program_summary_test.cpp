@@ -186,6 +186,52 @@ TEST(ProgramSummary, NamesEveryMCodeThatTheMachineDoesNotHave) {
   EXPECT_TRUE(on_ac_table("G21 G90 G54\nG0 X1 M8\nM30\n").good);
 }
 
+// M29 asks for what is always so.
+TEST(ProgramSummary, MCodesThatNeedNoLogicAreKnown) {
+  const auto rigid = on_ac_table("G21 G90 G54\nM29 S500\nG0 X1\nM30\n");
+  EXPECT_TRUE(rigid.good) << rigid.text;
+  EXPECT_TRUE(rigid.json["unknown_m"].empty());
+  auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+  tables.parameters.values[parameter::macro_m_code.number()].value = 200;
+  tables.parameters.values[parameter::subprogram_m_code.number()].value = 201;
+  SurveyedMachine machine(tables);
+  const auto calls =
+      summarize(machine, "G21 G90 G54\nM200 X5\nM201 M8\nM30\nO9020\nG0 X#24\nM99\nO9001\nG0 Y3\nM99\n",
+                machine.reference_position());
+  EXPECT_TRUE(calls.good) << calls.text;
+  EXPECT_TRUE(calls.json["unknown_m"].empty());
+  EXPECT_THAT(calls.text, HasSubstr("calls    O9020, O9001\n"));
+}
+
+TEST(ProgramSummary, CountsTheLinesThatAreWrittenToAFile) {
+  const auto summary = on_ac_table("G21 G90 G54\nG0 X1\nDPRNT[A]\nDPRNT[B]\nM30\n");
+  EXPECT_EQ(summary.json["printed_lines"], 2);
+  EXPECT_THAT(summary.text, HasSubstr("prints   2 lines of DPRNT\n"));
+  EXPECT_THAT(on_ac_table("G21 G90 G54\nG0 X1\nM30\n").text, Not(HasSubstr("DPRNT")));
+}
+
+TEST(ProgramSummary, SequenceNumbersAndM198AreCallsToo) {
+  const auto summary = on_ac_table("G21 G90 G54\nM98 Q10\nM198 P7\nM30\nN10 G0 X1\nM99\nO7\nG0 X2\nM99\n");
+  EXPECT_TRUE(summary.good) << summary.text;
+  EXPECT_THAT(summary.text, HasSubstr("calls    N10, O0007\n"));
+}
+
+// Turned by 90 degrees about Z as it is clamped, the tip still goes 10 mm along the X of the drawing.
+TEST(ProgramSummary, TheTipIsInTheWorkpieceAsItIsClamped) {
+  auto machine = ac_table();
+  const auto summary =
+      summarize(machine,
+                "G21 G90 G54 G17\nG10 L23 P1 X5 Y7 Z0 A0 B0 C90\nT1 M6\nS1000 M3\nG43 H1\nG54.4 P1\n"
+                "G0 X0 Y0 Z50\nG1 X10 F500\nG54.4 P0\nM30\n",
+                machine.reference_position());
+  EXPECT_TRUE(summary.good) << summary.text;
+  const auto& tip = summary.json["work_offsets"][0]["tip"];
+  EXPECT_NEAR(tip["X"]["from"].get<double>(), 0, 1e-9);
+  EXPECT_NEAR(tip["X"]["to"].get<double>(), 10, 1e-9);
+  EXPECT_NEAR(tip["Y"]["from"].get<double>(), 0, 1e-9);
+  EXPECT_NEAR(tip["Y"]["to"].get<double>(), 0, 1e-9);
+}
+
 TEST(ProgramSummary, AnAlarmIsAtItsEnd) {
   const auto summary = on_ac_table("G21 G90 G54\nG0 X1\nG0 X9000\nM30\n");
   EXPECT_FALSE(summary.good);

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -37,10 +38,12 @@ std::vector<std::string> warnings_in(const std::string& text) {
 
 std::string name_of_text(std::uint32_t program) { return program == 0 ? "part.nc" : "other"; }
 
-/// On the AC table with its tool 1, 100 mm long.
-std::vector<std::string> warnings_of(const std::string& program) {
-  channel_setup::ChannelSetup machine(
-      tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table"));
+/// On the AC table with its tool 1, 100 mm long, and with other values of parameters.
+std::vector<std::string> warnings_of(const std::string& program,
+                                     const std::map<std::uint32_t, double>& parameters = {}) {
+  auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+  for (const auto& [number, value] : parameters) tables.parameters.values[number].value = value;
+  channel_setup::ChannelSetup machine(tables);
   language::StringSource source(program);
   std::ostringstream out;
   check_program(source, machine, machine.reference_position(), {}, name_of_text, out);
@@ -150,6 +153,10 @@ TEST(Warnings, GoodProgramsHaveNone) {
            std::string("G21 G90 G54 G17\nT1 M6\nG43 H1\nG0 X0 Y0 Z50\nG1 X10 F500\nG31 L1 X20\nM30\n"),
            std::string(
                "G21 G90 G54 G17\nG53 G0 Z0\nT1 M6\nS1000 M3\nG0 X0 Y0\nG43 H1 Z50\nG1 Z40 F500\nM30\n"),
+           // A quarter and half a degree about X10 Y5.
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG90.1\nG3 X9.9564 Y9.9998 I10 J5\nG1 X0\nM30\n",
+           // Words of a rotation, of which R would be a circle of nearly a full turn.
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG3 X2 Y0 I-4 J0\nG68 X0 Y0 R-1\nG69\nG1 X0\nM30\n",
            prelude + "G0 Z50\nM99\n",
        })
     EXPECT_THAT(warnings_of(program), IsEmpty()) << program;
@@ -167,9 +174,33 @@ TEST(Warnings, OfASubprogramNameItsText) {
               ElementsAre(StartsWith("warning  other line 2:1: G41 or G42 without D")));
 }
 
+TEST(Warnings, FollowTheDialectOfTheText) {
+  EXPECT_THAT(warnings_of("(DIALECT: NUM)\nG71 G90\nG0 X5\nM2\n"), IsEmpty());
+  EXPECT_THAT(warnings_of("(DIALECT: NUM)\nG0 X5\nM2\n"),
+              ElementsAre(HasSubstr(": G70 or G71, G90 or G91;")));
+  EXPECT_THAT(warnings_of("(DIALECT: ISO)\nG21 G90\nG0 X5\nM2\n", {{parameter::program_dialect.number(), 1}}),
+              ElementsAre(HasSubstr(": G54 to G59;")));
+}
+
+TEST(Warnings, ASecondToolWordIsForTheNextChange) {
+  const std::string changes = "G21 G90 G54 G17\nT1 T2 M6\nG43 H1\nM6\nG43 H2\nG0 Z50\nM30\n";
+  EXPECT_THAT(warnings_of(changes, {{parameter::two_tool_words.number(), 2}}), IsEmpty());
+  EXPECT_THAT(warnings_of(changes, {{parameter::two_tool_words.number(), 1}}),
+              ElementsAre(StartsWith("warning  line 3:5: "), StartsWith("warning  line 4:1: ")))
+      << "the second tool is in the spindle, and none is ready";
+}
+
+// The machine changes tools by a program, in which M6 is the ordinary one.
+TEST(Warnings, ACodeThatCallsAProgramIsNoChangeOfItsOwn) {
+  const std::string change = "G21 G90 G54 G17\nT1 M6\nG43 H1\nG0 Z50\nM30\nO9001\nM6\nM99\n";
+  EXPECT_THAT(warnings_of(change, {{parameter::subprogram_m_code.number(), 6}}), IsEmpty());
+}
+
 TEST(Conditions, AreFoundWithWhatIsBehindThem) {
   EXPECT_EQ(condition_of("N10 IF [#1 EQ 2] THEN #2=3"), " [#1 EQ 2] ");
   EXPECT_EQ(condition_of("/2 while#1LT3do1"), "#1LT3");
+  EXPECT_EQ(condition_of("WH [#1 LT 3] DO 1"), " [#1 LT 3] ");
+  EXPECT_EQ(condition_of("IF [#1 EQ 2] TH #2=#3"), " [#1 EQ 2] ");
   EXPECT_EQ(condition_of("(IF) G0 X1"), "");
   EXPECT_EQ(condition_of("G0 X1 (IF #1)"), "");
   EXPECT_EQ(condition_of("IF #1 EQ 2 (THEN)"), " #1 EQ 2 ");
