@@ -176,7 +176,7 @@ Interpreter::State Interpreter::pass_leader(const Fault& fault, std::string_view
   const bool blank_tape = blank != 0 && line.find('\0', blank) == std::string_view::npos;
   const Leader leader = blank_tape ? Leader{true, blank} : dialect_->leader(line);
   if (!leader.passes || leader.mark == 0) return fail(fault, line);
-  not_found_ = located(fault, line);
+  not_found_ = named(fault, line);
   search_.purpose = Purpose::leader;
   search_.source = levels_[depth_].source;
   return pass_leader(leader, position_);
