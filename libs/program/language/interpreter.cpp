@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "language/computed_word.hpp"
 #include "language/foreign_words.hpp"
 #include "language/haas_dialect.hpp"
 #include "language/iso_dialect.hpp"
@@ -140,10 +141,16 @@ Alarm Interpreter::located(const Fault& fault, std::string_view line) {
     return make_alarm({fault.number, 0}, {}, levels_[depth_].program, executor_.interference().line,
                       executor_.fault_detail(fault.number));
   }
-  const std::string_view detail = fault.number == AlarmNumber::spindle_without_mark
-                                      ? std::string_view(control_.unmarked())
-                                      : executor_.fault_detail(fault.number);
-  Alarm alarm = make_alarm(fault, line, levels_[depth_].program, line_, detail);
+  std::string_view detail = fault.number == AlarmNumber::spindle_without_mark
+                                ? std::string_view(control_.unmarked())
+                                : executor_.fault_detail(fault.number);
+  Fault found = fault;
+  WordDetail computed;
+  if (detail.empty()) {
+    detail = computed_word(fault, line, variables_, computed);
+    if (!detail.empty()) found.detail = nullptr;
+  }
+  Alarm alarm = make_alarm(found, line, levels_[depth_].program, line_, detail);
   alarm.calls = static_cast<std::uint8_t>(depth_);
   for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {levels_[i].program, levels_[i + 1].call_line};
   return alarm;

@@ -121,6 +121,13 @@ std::vector<Wrong> wrong_programs() {
       {feed_missing, "G1 F5 X1\nG95 X2", 2, 5, ": X2"},
       {feed_missing, "G53 G1 X1", 1, 1, ": G53"},
       {feed_not_positive, "F0", 1, 1, ": F0"},
+      {value_range, "G90 G10 L11 P#4120 R-1.", 1, 13, ": P, #4120 is 0"},
+      {value_range, "G31 P[#1-2.] X1 F1", 1, 5, ": P, the value is -2"},
+      {not_an_integer, "#1=2.5\nM98 P#1", 2, 5, ": P, #1 is 2.5"},
+      {subprogram_missing, "#101=77\nG65 P#101", 2, 5, ": P, #101 is 77"},
+      {missing_word, "M98 P#101", 1, 1, ": M98, needs P: #101 is vacant"},
+      {feed_missing, "G1 X1 F#9", 1, 4, ": X1, needs F: #9 is vacant"},
+      {missing_word, "G43 H[#101]", 1, 1, ": G43, needs H"},
       {feed_not_positive, "G1 X1 F-5", 1, 7, ": F-5"},
       {arc_centre_missing, "G2 X1 F1", 1, 4, ": X1"},
       {arc_centre_missing, "G2 X10 R5 F1\nX20", 2, 1, ": X20, R, I, J and K hold for their block alone"},
@@ -128,7 +135,9 @@ std::vector<Wrong> wrong_programs() {
       {arc_radius_zero, "G2 X1 I0 J0 F1", 1, 10, ": J0"},
       {arc_radius_zero, "G2 X1 R0 F1", 1, 7, ": R0"},
       // Start radius 5, end radius |(10.11, 0) - (5, 0)| = 5.11: 0.11 apart, 0.1 allowed.
-      {arc_radii_differ, "G2 X10.11 I5 F1", 1, 11, ": I5"},
+      {arc_radii_differ, "G2 X10.11 I5 F1", 1, 11, ": I5, 5.0000 and 5.1100 mm, 0.1100 mm apart"},
+      // 0.2 inch and 0.205 inch.
+      {arc_radii_differ, "G20 G2 X.405 I.2 F1", 1, 14, ": I.2, 5.0800 and 5.2070 mm, 0.1270 mm apart"},
       // Half the chord is 5; 0.1 less is the smallest radius.
       {arc_radius_too_small, "G2 X10 R4.89 F1", 1, 8, ": R4.89"},
       {arc_full_with_radius, "G2 X0 R5 F1", 1, 7, ": R5"},
