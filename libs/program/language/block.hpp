@@ -164,6 +164,7 @@ struct DialectRules {
   bool text_closes_else = false;       ///< the end of a program closes an IF behind its ELSE
   bool number_counts = true;           ///< digits before the last four of a called number may be repetitions
   VariableNumber system_number = nullptr;  ///< as Variables::set_numbers()
+  bool tool_times = false;                 ///< #5401 to #5500 are times of tools
   bool tool_diameters = false;  ///< variables and G10 have diameters of tools, where the machine has so
 };
 

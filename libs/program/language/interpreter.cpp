@@ -199,6 +199,7 @@ void Interpreter::use_dialect(ProgramDialect name) {
 void Interpreter::take_rules() {
   rules_ = dialect_->rules();
   variables_.set_numbers(rules_.system_number);
+  control_.set_tool_times(rules_.tool_times);
   control_.set_tool_diameters(rules_.tool_diameters && !environment_.haas_radius_offsets());
 }
 

@@ -54,7 +54,8 @@ enum class VariableKind : std::uint8_t {
   mirror,
   parts,
   macro_signal,
-  setting,  ///< refused, as the next two
+  tool_time,  ///< in Haas programs only
+  setting,    ///< refused, as the next two
   required_parts,
   servo_deviation,
   external,  ///< an external parameter of the NUM dialect: in no range
@@ -146,6 +147,8 @@ inline constexpr std::array variable_ranges = {
                   "external work offset, which is added to every other, X Y Z A B C U V W"},
     VariableRange{5221, 5329, VariableKind::work_offset, true,
                   "work offsets: 5221 X of G54, 5241 of G55 .. 5321 of G59"},
+    VariableRange{5401, 5500, VariableKind::tool_time, false,
+                  "Haas programs: seconds of tool 1 to 100 at feed, 0, since they are not counted here"},
     VariableRange{7001, 7949, VariableKind::extended_work_offset, true,
                   "work offsets: 7001 X of G54.1 P1, 7021 of P2 .. 7941 of P48"},
     VariableRange{10001, 10999, VariableKind::length_wear, true, "tool length wear of tool 1 to 999, mm"},
