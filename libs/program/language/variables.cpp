@@ -74,7 +74,8 @@ const Value* Variables::stored(double number) const {
   };
   if (const Value* const value = in(50, store_.common)) return value;
   if (const Value* const value = in(500, store_.kept)) return value;
-  return in(50000, store_.user);
+  if (const Value* const value = in(50000, store_.user)) return value;
+  return in(900000, store_.extended);
 }
 
 AlarmNumber Variables::read_common(double number, Value& value) const {

@@ -158,6 +158,8 @@ inline constexpr std::array variable_ranges = {
     VariableRange{14001, 14949, VariableKind::extended_work_offset, true,
                   "work offsets as #7001: 14001 X of G54.1 P1 .. 14941 of P48"},
     VariableRange{50000, 54999, VariableKind::user, true, "common to all programs, kept"},
+    VariableRange{900000, 907399, VariableKind::user, true,
+                  "common to all programs, kept; the extended common variables of Fanuc 30i and 31i"},
 };
 
 /// Whether a variable is the control's and not a place to store something.
@@ -166,16 +168,18 @@ constexpr bool is_system_variable(double number) { return number >= 1000 && numb
 /// What outlives a program. Its user takes it out when a program ends and hands it to the next; a program
 /// that is interpreted again needs it as it was at that program's start.
 struct VariableStore {
-  std::array<Value, 150> common{};  ///< #50..#199
-  std::array<Value, 500> kept{};    ///< #500..#999
-  std::array<Value, 9> skip{};      ///< #5061..#5069, mm and degrees whatever the units of the program
-  std::array<Value, 5000> user{};   ///< #50000..#54999
+  std::array<Value, 150> common{};     ///< #50..#199
+  std::array<Value, 500> kept{};       ///< #500..#999
+  std::array<Value, 9> skip{};         ///< #5061..#5069, mm and degrees whatever the units of the program
+  std::array<Value, 5000> user{};      ///< #50000..#54999
+  std::array<Value, 7400> extended{};  ///< #900000..#907399
   bool operator==(const VariableStore&) const = default;
 
   /// visit(number of the first, values) for every range.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(50u, self.common), visit(500u, self.kept), visit(5061u, self.skip), visit(50000u, self.user);
+    visit(50u, self.common), visit(500u, self.kept), visit(5061u, self.skip), visit(50000u, self.user),
+        visit(900000u, self.extended);
   }
 };
 
