@@ -21,6 +21,8 @@ language::Alarm gave_up(const ProgramReader& reader, Ending ending) {
   language::Alarm alarm;
   alarm.line = reader.interpreter().main_line();
   std::string_view text = "the program is read on and on without a move: it may wait for a time";
+  if (ending == Ending::returns)
+    text = "the program has returned to earlier lines very often and not ended: it may repeat for ever";
   if (ending == Ending::text_missing) {
     alarm.number = language::AlarmNumber::text_unreadable;
     text = language::alarm_text(alarm.number);

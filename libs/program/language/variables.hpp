@@ -192,6 +192,7 @@ struct VariableImage {
   std::array<std::array<Value, local_variables>, variable_levels> locals{};
   std::size_t level = 0;
   std::uint64_t system_reads = 0;  ///< how often the program had read one since its start
+  std::uint64_t own_reads = 0;     ///< likewise, of those that are its own position and modal state
 };
 
 /// The letters of a macro call as the variables they become.
@@ -295,8 +296,10 @@ class Variables {
 
   const VariableStore& store() const { return store_; }
   void copy_to(VariableImage& image) const;
-  /// False also when a system variable was read since.
+  /// False also when a system variable was read since, but for those of the program's own state.
   bool same_as(const VariableImage& image) const;
+  /// One of the program's own position or modal state was read since.
+  bool own_state_read_since(const VariableImage& image) const { return own_reads_ != image.own_reads; }
   /// Of the innermost level.
   const std::array<Value, local_variables>& locals() const { return levels_[level_].values; }
 
@@ -319,7 +322,7 @@ class Variables {
   VariableStore store_;
   std::array<Level, max_levels> levels_{};
   std::size_t level_ = 0;
-  mutable std::uint64_t system_reads_ = 0;
+  mutable std::uint64_t system_reads_ = 0, own_reads_ = 0;
   std::array<Written, most_taken_back> written_{};  // in this line
   std::size_t written_count_ = 0;
 };
