@@ -77,6 +77,19 @@ void print_ending(const ProgramReader& reader, Ending ending, const TextName& na
   }
 }
 
+std::string unknown_lines(std::uint16_t axes, const std::string& m_codes) {
+  std::string letters;
+  for (std::size_t axis = 0; axis < language::axis_count; ++axis)
+    if (canonical::is_rotary(axis) && ((axes >> axis) & 1u) != 0)
+      letters += fmt::format(" {}", language::axis_letters[axis]);
+  std::string lines;
+  if (!letters.empty())
+    lines += fmt::format("rotary  {}: words without kinematics, since no machine is named\n", letters);
+  if (!m_codes.empty())
+    lines += fmt::format("m codes {}: for the logic of the machine, of which none is named\n", m_codes);
+  return lines;
+}
+
 std::string warning_lines(const Warnings& warnings, const TextName& name) {
   std::string lines;
   for (const Warning& warning : warnings.sorted()) {

@@ -123,14 +123,20 @@ void ProgramFigures::note_codes(const SeenBlock& seen) {
     if (auto* const named = add_named(without_effect_, g_name(*code), seen, block.g[i].offset))
       named->text = reason;
   }
-  for (std::size_t i = 0; i < block.m_count && functions_ != nullptr; ++i) {
+  for (std::size_t i = 0; i < block.m_count; ++i) {
     const double value = block.m[i].value;
     if (!(value >= 0 && value <= language::highest_m) || value != std::floor(value)) continue;
     const auto number = static_cast<std::uint16_t>(value);
     const bool flow = language::m_code(number).group == language::MGroup::flow;
     const bool called =
         std::find(cycle_m_codes_.begin(), cycle_m_codes_.end(), number) != cycle_m_codes_.end();
-    if (flow || called || functions_->has(number)) continue;
+    if (flow || called) continue;
+    if (functions_ == nullptr) {
+      if (!language::is_named_m(number))
+        add_named(other_m_, fmt::format("M{}", number), seen, block.m[i].offset);
+      continue;
+    }
+    if (functions_->has(number)) continue;
     auto* const named = add_named(unknown_m_, fmt::format("M{}", number), seen, block.m[i].offset);
     const auto* const word = language::foreign_m(number);
     if (named != nullptr && word != nullptr)

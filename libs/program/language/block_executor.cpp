@@ -103,6 +103,7 @@ Fault BlockExecutor::run(Flow& flow) {
   if (context_.words.thread() == ThreadBlock::alone)
     context_.state.modal.motion = context_.state.at_block_begin().modal.motion;
   if (const Fault fault = set_flow(flow)) return fault;
+  context_.words.leave_to_logic();
   if (const Fault fault = report_unused()) return fault;
   m_codes_due_ = context_.activity != Activity::none;
   return m_codes_due_ ? Fault{} : finish_block();
