@@ -151,6 +151,7 @@ struct Leader {
   static constexpr std::size_t no_mark = static_cast<std::size_t>(-1);
   bool passes = false;         ///< it cannot be a block
   std::size_t mark = no_mark;  ///< the byte with which the program begins: its %
+  bool named = false;          ///< O and a name: a head, if it is the first one behind a %
 };
 
 /// Bit n - 1 for block skip level n: /1 .. /9; a lone / is /1.

@@ -20,6 +20,7 @@ class HaasDialect final : public Dialect {
   Outline outline(std::string_view line, SkipLevels skip) const override {
     return words_.outline(line, skip);
   }
+  Leader leader(std::string_view line) const override { return words_.leader(line); }
 
  private:
   IsoDialect words_;

@@ -295,6 +295,7 @@ Interpreter::State Interpreter::execute_block(std::string_view line) {
   if (const Fault fault = dialect_->read_block(line, options_.block_skip, variables_, block_))
     return level.started ? fail(fault, line) : pass_leader(fault, line);
   if (block_.skipped) return State::running;
+  level.taped = block_.head == Head::tape_mark || (level.taped && block_.empty());
   if (block_.head != Head::none && level.started) {
     // On other controls : is a main block in the middle of a program.
     if (is_colon_head(line)) return fail({AlarmNumber::colon_in_program, 0}, line);

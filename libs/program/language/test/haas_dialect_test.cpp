@@ -122,6 +122,12 @@ TEST(HaasDialect, M97CallsWhatBeginsAtASequenceNumber) {
   EXPECT_EQ(alarm_of("M97 P7\nM30\nIF[1EQ1]\nN7 X1\nM99\nENDIF"), AlarmNumber::jump_into_structure);
 }
 
+TEST(HaasDialect, TextInFrontOfTheMarkIsNoProgram) {
+  EXPECT_THAT(haas_stream("Information listing created by\n\n%\nO1234\nG0 X1\nM30\n%\n"),
+              ElementsAre("rapid X1", "end 30"));
+  EXPECT_THAT(haas_stream("%\nONONAME ( PART )\nG0 X1\nM30\n"), ElementsAre("rapid X1", "end 30"));
+}
+
 TEST(HaasDialect, M98CallsAProgramOfTheMemory) {
   TestMachine machine = haas_machine();
   machine.programs["O0100"] = std::make_unique<StringSource>("O00100\nG91 X1\nG90 M99\n");
