@@ -53,7 +53,7 @@ class Runner final : public program_execution::ProgramMotion {
                         std::to_string(static_cast<unsigned>(reader_.alarm().number)) + ")";
         break;
       case Ending::returns:
-        result_.alarm = "The program returns to earlier lines again and again";
+        result_.alarm = "The program returns to earlier lines repeatedly and does not end";
         break;
       case Ending::idle:
         result_.alarm = "The program repeats without a move";

@@ -72,7 +72,7 @@ inline constexpr std::array warning_rules = {
                 "write each comparison in brackets"},
     WarningRule{"foreign_m", "M code that means something of its own on another control",
                 "name the machine with --machine, which knows its M codes"},
-    WarningRule{"cycle_active", "a drilling cycle goes on behind a tool change or a return",
+    WarningRule{"cycle_active", "a drilling cycle continues behind a tool change or a return",
                 "write G80 before, or the next X Y is a hole"},
     WarningRule{"cycle_below", "the cycle begins below R, and goes to the hole there",
                 "write G0 Z_ above R before"},
