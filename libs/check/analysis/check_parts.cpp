@@ -37,9 +37,8 @@ void print_alarm(const ProgramReader& reader, const TextName& name, std::ostream
   if (alarm.column != 0) out << alarm.column << ":";
   out << " " << static_cast<unsigned>(alarm.number) << ": " << alarm_text_of(reader, Ending::alarm) << "\n";
   if (alarm.number == language::AlarmNumber::subprogram_missing)
-    out << "  Called programs are looked for in the text, beside it, and in the folder of the machine: O1234 "
-           "or "
-           "O1234.nc\n";
+    out << "  Called programs are looked for in the text, beside it and in the folder of the machine, by "
+           "number\n";
   if (alarm.foreign != nullptr) out << "  " << foreign_text(*alarm.foreign) << "\n";
   for (std::size_t i = alarm.calls; i-- > 0;) {
     out << "  called from " << name(alarm.chain[i].program) << ":" << alarm.chain[i].line << "\n";
