@@ -34,7 +34,7 @@ std::uint16_t rotary_words_of(std::string_view line) {
   for (Scanner scanner(line); scanner.more();) {
     const char c = scanner.peek();
     const std::size_t letters = scanner.letters();
-    if (c == ';') break;
+    if (c == ';' || scanner.looking_at("DPRNT")) break;
     if (c == '(') {
       if (!scanner.skip_comment()) break;
       continue;

@@ -9,7 +9,8 @@
 namespace trunnion::analysis {
 
 /// A, B and C (bit a for language::Axis a) that lines of the text have words of. Arguments of G65 and G66 are
-/// none, nor what is in comments, behind a comma or in names. Reads the whole text, but not what it calls.
+/// none, nor what is in comments, printed, behind a comma or in names. Reads the whole text, but not what it
+/// calls.
 std::uint16_t rotary_words(language::TextSource& text);
 
 }  // namespace trunnion::analysis

@@ -81,9 +81,9 @@ TEST(RotaryWords, AreThoseOfAxes) {
   EXPECT_EQ(rotary_of("G0 X1\n"), 0);
   EXPECT_EQ(rotary_of("G0X1A5\nB-.5\nG1 c#1\n"), a | b | c);
   EXPECT_EQ(rotary_of("N10 A[#1+2]\r\nC + 5"), a | c);
-  for (const char* none :
-       {"(A5)", "; A5", "G65 P9000 A1 B2 C3", "g66.1 P1 A1", "#1=ABS[#2]", "G1 X5 ,C2", "X1 ,A30",
-        "IF [#1 EQ 5] GOTO 10", "(C1 (A2)) X5", "A", "WHILE [#1 LT 5] DO 1", "CYCLE800(1,\"A1\")"})
+  for (const char* none : {"(A5)", "; A5", "G65 P9000 A1 B2 C3", "g66.1 P1 A1", "#1=ABS[#2]", "G1 X5 ,C2",
+                           "X1 ,A30", "IF [#1 EQ 5] GOTO 10", "(C1 (A2)) X5", "A", "WHILE [#1 LT 5] DO 1",
+                           "DPRNT[A#1[53] C5]", "CYCLE800(1,\"A1\")"})
     EXPECT_EQ(rotary_of(none), 0) << none;
 }
 
