@@ -21,6 +21,7 @@
 #include "analysis/json_lines.hpp"
 #include "analysis/program_folders.hpp"
 #include "analysis/program_summary.hpp"
+#include "analysis/rotary_words.hpp"
 #include "canonical/program_dialect.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "cluster/cluster_files.hpp"
@@ -121,6 +122,7 @@ int run_check(const CheckOptions& options) {
     analysis::DefaultMachine machine(rows);
     machine.resolve = resolve;
     if (dialect) machine.dialect = *dialect;
+    machine.rotary_axes = analysis::rotary_words(text);
     check_options.lengths_known = rows.has_value();
     good = check(machine, {});
   } else {
@@ -172,7 +174,8 @@ void add_check_command(CLI::App& app, Common& common) {
   command->add_option(
       "--machine", options->machine,
       "Folder or name of a machine: its axes, travel, offsets and tools, from its reference position; else "
-      "three linear axes from 0 without end, offsets 0");
+      "three linear axes from 0 without end, offsets 0, rotary axes that the program names without "
+      "kinematics");
   command->add_option(
       "--tools", options->tools,
       "CSV file number,length,radius in place of the tools; without it and a machine every tool is 0 long");

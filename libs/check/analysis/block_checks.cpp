@@ -27,6 +27,13 @@ std::size_t first_of(const Block& block, std::uint32_t letters) {
   return first == SIZE_MAX ? 0 : first;
 }
 
+/// Byte of M`number` in the line; 0 when the block does not have it.
+std::size_t m_offset(const Block& block, double number) {
+  for (std::size_t i = 0; i < block.m_count; ++i)
+    if (block.m[i].value == number) return block.m[i].offset;
+  return 0;
+}
+
 WarningPlace place_of(const SeenBlock& seen, std::size_t offset) {
   return place_in(seen.program, seen.number, seen.line, offset);
 }
@@ -60,6 +67,7 @@ void BlockChecks::see(const SeenBlock& seen) {
   check_radius(rest);
   check_return(rest);
   check_m(rest);
+  if (!num_) check_cycle(rest);
   note(rest);
 }
 
@@ -75,17 +83,61 @@ void BlockChecks::note(const SeenBlock& seen) {
   probes_ = probes_ || (positions && positions.code->tenths / 10 == 31);  // G31, G31.1 to G31.3
 }
 
+// M6 of other controls ends a cycle, here it goes on. A return may be the end of the program: it is named
+// when a hole follows.
+void BlockChecks::check_cycle(const SeenBlock& seen) {
+  const Block& block = seen.block;
+  check_cycle_level(seen);
+  const bool ends = code_of(block, Group::cycle) || code_of(block, Group::motion);
+  if (seen.modal.cycle == 80 || ends) {
+    returned_.reset();
+    return;
+  }
+  const auto warn = [&](const WarningPlace& place, std::uint32_t about, const char* at) {
+    if (auto* const warning = warnings_.add(WarningKind::cycle_active, place, about))
+      warning->detail = fmt::format("G{} at {}", seen.modal.cycle, at);
+    returned_.reset();
+  };
+  const FoundCode code = code_of(block, Group::one_block);
+  if (has_m(block, 6)) {
+    warn(place_of(seen, m_offset(block, 6)), 6, "M6");
+  } else if (code.is(280) || code.is(300)) {
+    returned_ = place_of(seen, code.offset);
+  } else if (returned_ && !code && (block.letters & (language::axis_bits | Block::bit('R'))) != 0) {
+    warn(*returned_, 28, "G28 or G30");
+  }
+}
+
+// In the plane that the spindle is square to. Where the block changes what Z means, and in a cycle that was
+// active before with G91, its level is not known.
+void BlockChecks::check_cycle_level(const SeenBlock& seen) {
+  constexpr double noticed = 1e-3;  // mm
+  const Block& block = seen.block;
+  const FoundCode cycle = code_of(block, Group::cycle), plane = code_of(block, Group::plane);
+  const bool begins = cycle && !cycle.is(800);
+  const bool continues = !cycle && !code_of(block, Group::motion) && seen.modal.cycle != 80;
+  const bool bores_back = begins ? cycle.is(870) : seen.modal.cycle == 87;
+  const bool square = plane ? plane.is(170) : seen.modal.plane == language::Plane::xy;
+  if (!block.has('R') || !(begins || continues) || bores_back || !square) return;
+  for (const Group group : {Group::one_block, Group::tool_length, Group::work_offset, Group::scaling,
+                            Group::mirror, Group::rotation, Group::setting_error})
+    if (code_of(block, group)) return;
+  if (block.has('L') && block.value('L') == 0) return;
+  const bool absolute = absolute_in(seen);
+  if (!absolute && seen.modal.cycle != 80) return;
+  const double level = seen.position[language::Z];
+  const double r = block.value('R') * length_scale_in(seen) + (absolute ? 0.0 : level);
+  if (!(level < r - noticed)) return;
+  if (auto* const warning = warnings_.add(WarningKind::cycle_below, place_of(seen, block.offset('R'))))
+    warning->detail = fmt::format("Z is at {:.3f}, R at {:.3f} mm", level, r);
+}
+
 // A T may be in the block of its M6 or in one before.
 void BlockChecks::check_change(const SeenBlock& seen) {
   const Block& block = seen.block;
   selected_ = selected_ || block.has('T');
   if (!has_m(block, 6)) return;
-  if (!selected_) {
-    std::size_t at = 0;
-    for (std::size_t i = 0; i < block.m_count; ++i)
-      if (block.m[i].value == 6) at = block.m[i].offset;
-    warnings_.add(WarningKind::change_without_tool, place_of(seen, at));
-  }
+  if (!selected_) warnings_.add(WarningKind::change_without_tool, place_of(seen, m_offset(block, 6)));
   selected_ = block.two_tools && makes_ready_;
 }
 

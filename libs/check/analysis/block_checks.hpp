@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "analysis/block_calls.hpp"
@@ -58,6 +59,8 @@ class BlockChecks {
   void check_radius(const language::SeenBlock& seen);
   void check_return(const language::SeenBlock& seen);
   void check_m(const language::SeenBlock& seen);
+  void check_cycle(const language::SeenBlock& seen);
+  void check_cycle_level(const language::SeenBlock& seen);
   void check_condition(const language::SeenBlock& seen);
 
   Warnings& warnings_;
@@ -69,6 +72,7 @@ class BlockChecks {
   bool selected_ = false;  // a T came since the newest M6
   bool probes_ = false, spindle_by_logic_ = false, returns_ = false, calls_ = false;
   std::uint32_t last_line_ = 0;
+  std::optional<WarningPlace> returned_;  // G28 or G30 while a cycle was active, and it still is
   std::uint16_t one_block_ = 0;
   std::uint32_t program_ = 0, number_ = 0;
   std::size_t offset_ = 0;

@@ -21,6 +21,8 @@ language::Alarm gave_up(const ProgramReader& reader, Ending ending) {
   language::Alarm alarm;
   alarm.line = reader.interpreter().main_line();
   std::string_view text = "the program is read on and on without a move: it may wait for a time";
+  if (ending == Ending::returns)
+    text = "the program has returned to earlier lines very often and not ended: it may repeat for ever";
   if (ending == Ending::text_missing) {
     alarm.number = language::AlarmNumber::text_unreadable;
     text = language::alarm_text(alarm.number);
@@ -34,6 +36,9 @@ void print_alarm(const ProgramReader& reader, const TextName& name, std::ostream
   out << name(alarm.program) << ":" << alarm.line << ":";
   if (alarm.column != 0) out << alarm.column << ":";
   out << " " << static_cast<unsigned>(alarm.number) << ": " << alarm_text_of(reader, Ending::alarm) << "\n";
+  if (alarm.number == language::AlarmNumber::subprogram_missing)
+    out << "  Called programs are looked for in the text, beside it and in the folder of the machine, by "
+           "number\n";
   if (alarm.foreign != nullptr) out << "  " << foreign_text(*alarm.foreign) << "\n";
   for (std::size_t i = alarm.calls; i-- > 0;) {
     out << "  called from " << name(alarm.chain[i].program) << ":" << alarm.chain[i].line << "\n";
@@ -73,6 +78,19 @@ void print_ending(const ProgramReader& reader, Ending ending, const TextName& na
     const auto alarm = gave_up(reader, ending);
     out << name(0) << ":" << alarm.line << ": " << alarm.text.data() << "\n";
   }
+}
+
+std::string unknown_lines(std::uint16_t axes, const std::string& m_codes) {
+  std::string letters;
+  for (std::size_t axis = 0; axis < language::axis_count; ++axis)
+    if (canonical::is_rotary(axis) && ((axes >> axis) & 1u) != 0)
+      letters += fmt::format(" {}", language::axis_letters[axis]);
+  std::string lines;
+  if (!letters.empty())
+    lines += fmt::format("rotary  {}: words without kinematics, since no machine is named\n", letters);
+  if (!m_codes.empty())
+    lines += fmt::format("m codes {}: for the logic of the machine, of which none is named\n", m_codes);
+  return lines;
 }
 
 std::string warning_lines(const Warnings& warnings, const TextName& name) {

@@ -23,6 +23,10 @@ std::string alarm_text_of(const program_execution::ProgramReader& reader, progra
 void print_ending(const program_execution::ProgramReader& reader, program_execution::Ending ending,
                   const TextName& name, std::ostream& out);
 
+/// What a check without a machine does not know: a line of the rotary ones among `axes`, bit a for Axis a,
+/// and one of the M codes that are in no table. Empty when there are neither.
+std::string unknown_lines(std::uint16_t axes, const std::string& m_codes);
+
 /// A line for each.
 std::string warning_lines(const Warnings& warnings, const TextName& name);
 

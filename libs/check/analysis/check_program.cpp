@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/check_program.hpp"
 
+#include <fmt/core.h>
+
 #include <memory>
 #include <ostream>
+#include <string>
 
 #include "analysis/check_parts.hpp"
 #include "analysis/json_lines.hpp"
@@ -16,7 +19,14 @@ namespace {
 using program_execution::Ending;
 using program_execution::ProgramReader;
 
-bool check(ProgramReader& reader, const language::Environment& environment, ProgramSurvey& survey,
+std::string unknown_lines_of(const Summary& summary, const language::Environment& environment) {
+  std::string codes;
+  for (const auto code : summary.other_m_codes()) codes += fmt::format(" M{}", code);
+  return unknown_lines(environment.axes(), codes);
+}
+
+/// `known`: the environment is a machine's.
+bool check(ProgramReader& reader, const language::Environment& environment, bool known, ProgramSurvey& survey,
            language::TextSource& text, const language::AxisValues& start, const CheckOptions& options,
            const TextName& name, std::ostream& out) {
   const auto lines = std::make_unique<JsonLines>(out, environment.axes());
@@ -36,7 +46,8 @@ bool check(ProgramReader& reader, const language::Environment& environment, Prog
   const bool good = ending == Ending::end || ending == Ending::repeats;
   if (!options.json_lines) {
     survey.end(ending == Ending::end, reader.interpreter().executor().program_position());
-    summary.print(out, reader.interpreter().blocks(), warning_lines(survey.warnings(), name));
+    const std::string unknown = known ? std::string() : unknown_lines_of(summary, environment);
+    summary.print(out, reader.interpreter().blocks(), unknown + warning_lines(survey.warnings(), name));
     print_ending(reader, ending, name, out);
   } else if (good) {
     lines->end(tracker.machine());
@@ -59,7 +70,7 @@ bool check_program(language::TextSource& text, channel_setup::ChannelSetup& mach
   ProgramSurvey survey(machine, true, true);
   const auto reader =
       std::make_unique<ProgramReader>(machine, reading_options(options, watch_of(options, survey)));
-  return check(*reader, machine, survey, text, start, options, name, out);
+  return check(*reader, machine, true, survey, text, start, options, name, out);
 }
 
 bool check_program(language::TextSource& text, language::Environment& environment,
@@ -68,7 +79,7 @@ bool check_program(language::TextSource& text, language::Environment& environmen
   ProgramSurvey survey(environment, options.lengths_known, environment.m_functions() != nullptr);
   const auto reader =
       std::make_unique<ProgramReader>(environment, reading_options(options, watch_of(options, survey)));
-  return check(*reader, environment, survey, text, start, options, name, out);
+  return check(*reader, environment, false, survey, text, start, options, name, out);
 }
 
 }  // namespace trunnion::analysis

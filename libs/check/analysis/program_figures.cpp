@@ -146,6 +146,12 @@ void ProgramFigures::note_codes(const SeenBlock& seen) {
     const double value = block.m[i].value;
     if (!(value >= 0 && value <= language::highest_m) || value != std::floor(value)) continue;
     const auto number = static_cast<std::uint16_t>(value);
+    if (functions_ == nullptr) {
+      const bool flow = language::m_code(number).group == language::MGroup::flow;
+      if (!flow && !language::is_named_m(number))
+        add_named(other_m_, fmt::format("M{}", number), seen, block.m[i].offset);
+      continue;
+    }
     if (!is_unknown(number)) continue;
     auto* const named = add_named(unknown_m_, fmt::format("M{}", number), seen, block.m[i].offset);
     const auto* const word = language::foreign_m(number);

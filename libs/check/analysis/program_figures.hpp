@@ -86,6 +86,8 @@ class ProgramFigures {
   const std::vector<NamedFigure>& cycles() const { return cycles_; }
   const std::vector<NamedFigure>& without_effect() const { return without_effect_; }
   const std::vector<NamedFigure>& unknown_m() const { return unknown_m_; }
+  /// Where no machine is named: M codes that are in no table of the control.
+  const std::vector<NamedFigure>& other_m() const { return other_m_; }
   const Highest& highest_speed() const { return highest_speed_; }
   const Highest& highest_feed() const { return highest_feed_; }
   const channel_setup::ChannelSetup* machine() const { return machine_; }
@@ -114,7 +116,7 @@ class ProgramFigures {
   double rapid_length_ = 0, cut_length_ = 0;
   std::array<OffsetFigures, language::work_offset_count> offsets_{};
   std::optional<channel_setup::AxisBox> axes_;
-  std::vector<NamedFigure> calls_, cycles_, without_effect_, unknown_m_;
+  std::vector<NamedFigure> calls_, cycles_, without_effect_, unknown_m_, other_m_;
   Highest highest_speed_, highest_feed_;
   std::uint32_t block_program_ = 0, block_line_ = 0;
   bool in_machine_coordinates_ = false;  // the block goes to a place of the machine: G53, G27, G28, G30

@@ -52,6 +52,9 @@ class Runner final : public program_execution::ProgramMotion {
         result_.alarm = reader_.alarm_text() + " (alarm " +
                         std::to_string(static_cast<unsigned>(reader_.alarm().number)) + ")";
         break;
+      case Ending::returns:
+        result_.alarm = "The program returns to earlier lines repeatedly and does not end";
+        break;
       case Ending::idle:
         result_.alarm = "The program repeats without a move";
         break;

@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "language/arc_geometry.hpp"
+#include "language/codes.hpp"
 
 namespace trunnion::analysis {
 
@@ -17,6 +18,8 @@ using language::CommandKind;
 
 void Summary::add(const language::Command& command) {
   if (command.kind == CommandKind::tool) tools_.insert(command.number);
+  if (command.kind == CommandKind::auxiliary && !language::is_named_m(command.number))
+    other_m_codes_.insert(command.number);
   const auto solution = command.modal.tilt.solution;
   const bool by_p = solution == 1 || solution == 2;
   if (command.kind == CommandKind::transformation && by_p && plane_line_ == 0)

@@ -25,6 +25,8 @@ class Summary {
   /// those of its ends.
   const language::AxisValues& lowest() const { return lowest_; }
   const language::AxisValues& highest() const { return highest_; }
+  /// M codes that are in no table of the control, in the order of their numbers.
+  const std::set<std::uint32_t>& other_m_codes() const { return other_m_codes_; }
 
  private:
   /// Moves whose time depends on what F counts.
@@ -42,7 +44,7 @@ class Summary {
   double rapid_length_ = 0, feed_length_ = 0, feed_minutes_ = 0, dwell_seconds_ = 0;
   MixedMoves mixed_;
   std::uint32_t plane_line_ = 0, plane_solution_ = 0;  ///< of the first tilted plane with P1 or P2
-  std::set<std::uint32_t> tools_;
+  std::set<std::uint32_t> tools_, other_m_codes_;
   std::uint64_t printed_ = 0;  ///< lines of DPRNT
   bool moved_ = false;
   language::AxisValues lowest_{}, highest_{};

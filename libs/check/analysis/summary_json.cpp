@@ -142,6 +142,7 @@ std::string to_json(const SummaryReport& report) {
   json["printed_lines"] = figures.printed();
   json["no_effect"] = named_json(figures.without_effect(), report);
   json["unknown_m"] = named_json(figures.unknown_m(), report);
+  json["other_m"] = named_json(figures.other_m(), report);
   json["warnings"] = warnings_json(report);
   if (report.repeats_from != 0) json["repeats_from"] = report.repeats_from;
   if (report.alarm) json["error"] = error_json(report);

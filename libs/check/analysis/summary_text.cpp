@@ -118,6 +118,13 @@ std::string named_lines(const char* title, const std::vector<NamedFigure>& list,
   return lines;
 }
 
+std::string unknown_of(const SummaryReport& report) {
+  if (report.figures.machine() != nullptr) return {};
+  std::string codes;
+  for (const NamedFigure& code : report.figures.other_m()) codes += fmt::format(" {}", code.name);
+  return unknown_lines(report.environment.axes(), codes);
+}
+
 std::string highest_line(const SummaryReport& report) {
   const auto& speed = report.figures.highest_speed();
   const auto& feed = report.figures.highest_feed();
@@ -151,6 +158,7 @@ std::string to_text(const SummaryReport& report) {
   text += list_line("cycles", figures.cycles());
   text += highest_line(report);
   if (figures.printed() > 0) text += fmt::format("prints   {} lines of DPRNT\n", figures.printed());
+  text += unknown_of(report);
   text += named_lines("no effect", figures.without_effect(), report.name);
   text += named_lines("unknown M code", figures.unknown_m(), report.name);
   text += warning_lines(report.warnings, report.name);

@@ -29,6 +29,8 @@ enum class WarningKind : std::uint8_t {
   condition_brackets,
   condition_order,
   foreign_m,
+  cycle_active,
+  cycle_below,
   end_missing,
 };
 
@@ -70,6 +72,10 @@ inline constexpr std::array warning_rules = {
                 "write each comparison in brackets"},
     WarningRule{"foreign_m", "M code that means something of its own on another control",
                 "name the machine with --machine, which knows its M codes"},
+    WarningRule{"cycle_active", "a drilling cycle continues behind a tool change or a return",
+                "write G80 before, or the next X Y is a hole"},
+    WarningRule{"cycle_below", "the cycle begins below R, and goes to the hole there",
+                "write G0 Z_ above R before"},
     WarningRule{"end_missing", "the program ends without M30 or M2", "write M30"},
 };
 

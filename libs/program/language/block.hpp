@@ -154,6 +154,7 @@ struct Leader {
   static constexpr std::size_t no_mark = static_cast<std::size_t>(-1);
   bool passes = false;         ///< it cannot be a block
   std::size_t mark = no_mark;  ///< the byte with which the program begins: its %
+  bool named = false;          ///< O and a name: a head, if it is the first one behind a %
 };
 
 /// Bit n - 1 for block skip level n: /1 .. /9; a lone / is /1.
@@ -167,6 +168,7 @@ struct DialectRules {
   bool text_closes_else = false;       ///< the end of a program closes an IF behind its ELSE
   bool number_counts = true;           ///< digits before the last four of a called number may be repetitions
   VariableNumber system_number = nullptr;  ///< as Variables::set_numbers()
+  bool tool_times = false;                 ///< #5401 to #5500 are times of tools
   bool tool_diameters = false;  ///< variables and G10 have diameters of tools, where the machine has so
 };
 

@@ -103,9 +103,22 @@ Fault BlockExecutor::run(Flow& flow) {
   if (context_.words.thread() == ThreadBlock::alone)
     context_.state.modal.motion = context_.state.at_block_begin().modal.motion;
   if (const Fault fault = set_flow(flow)) return fault;
-  if (const Fault fault = context_.words.report_unused()) return fault;
+  context_.words.leave_to_logic();
+  if (const Fault fault = report_unused()) return fault;
   m_codes_due_ = context_.activity != Activity::none;
   return m_codes_due_ ? Fault{} : finish_block();
+}
+
+// All of I J K beside a straight move are how posts write a direction of the tool.
+Fault BlockExecutor::report_unused() const {
+  const BlockWords& words = context_.words;
+  Fault fault = words.report_unused();
+  if (!fault) return fault;
+  constexpr std::uint32_t vector = letter_bits("IJK");
+  const bool directed = (words.letters() & vector) == vector && !words.used('I') && !words.used('J') &&
+                        !words.used('K') && fault.offset == words.offset('I');
+  if (directed && context_.state.modal.motion <= 1) fault.detail = "a tool direction I J K needs G43.5";
+  return fault;
 }
 
 Fault BlockExecutor::carry_out(std::uint32_t which) {

@@ -153,6 +153,7 @@ class BlockExecutor {
   Fault check_axis_words(bool& taken) const;
   Fault check_context() const;
   Fault finish_block();
+  Fault report_unused() const;
   Fault auxiliary(When when);
   Fault carry_out(const MCode& code, std::uint16_t at);
   Fault select_spindle();

@@ -21,6 +21,7 @@ void BlockWords::configure(const Environment& machine) {
   functions_ = machine.m_functions();
   dwell_point_ = machine.dwell_point();
   radius_offsets_ = machine.haas_radius_offsets();
+  words_for_logic_ = machine.m_codes_take_words();
 }
 
 Fault BlockWords::begin(const Block& block) {
@@ -80,6 +81,12 @@ Fault BlockWords::collect_m() {
 
 bool BlockWords::reaches_logic(const MCode& code) const {
   return functions_ == nullptr || code.group == MGroup::flow || functions_->has(code.number);
+}
+
+void BlockWords::leave_to_logic() {
+  if (!words_for_logic_) return;
+  for (std::size_t i = 0; i < m_.count; ++i)
+    if (!is_named_m(m_.codes[i].number)) used_ |= letter_bits("PQRH");
 }
 
 std::uint16_t BlockWords::first_offset() const {

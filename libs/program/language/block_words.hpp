@@ -105,6 +105,9 @@ class BlockWords {
   bool has_function(const MCode& code) const { return is_granted(code.number) || reaches_logic(code); }
   /// It makes a command: where no machine is known every M code does.
   bool reaches_logic(const MCode& code) const;
+  /// P, Q, R and H that nothing has taken are for the logic where an M code that is in no table may have
+  /// them.
+  void leave_to_logic();
   /// A whole number in [low, high].
   Fault whole_number(char letter, std::uint32_t low, std::uint32_t high, std::uint32_t& value);
   /// Seconds: P in milliseconds, or as the machine takes a decimal point in it (P1.5).
@@ -140,7 +143,7 @@ class BlockWords {
   bool diameter_ = false;
   const MFunctions* functions_ = nullptr;
   DwellPoint dwell_point_ = DwellPoint::refused;
-  bool radius_offsets_ = false;
+  bool radius_offsets_ = false, words_for_logic_ = false;
 };
 
 }  // namespace trunnion::language

@@ -130,6 +130,14 @@ inline constexpr std::array m_codes = {
 };
 inline constexpr std::uint16_t highest_m = 9999;
 
+/// Whether the table has M`number`.
+constexpr bool is_named_m(std::uint32_t number) {
+  for (const MCode& code : m_codes) {
+    if (code.number == number) return true;
+  }
+  return false;
+}
+
 /// Every M code the table does not name goes to the PLC before the motion: clamps must open before an axis
 /// moves.
 constexpr MCode m_code(std::uint16_t number) {

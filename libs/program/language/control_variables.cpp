@@ -277,6 +277,9 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
     case VariableKind::homed:
       if (const AlarmNumber alarm = homed(index, result); alarm != AlarmNumber::none) return alarm;
       break;
+    case VariableKind::tool_time:
+      if (!tool_times_) return AlarmNumber::variable_unknown;
+      break;
     case VariableKind::block_end:
       result = in_program_units(index, executor_.program_position()[index]);
       break;

@@ -39,6 +39,8 @@ class ControlVariables final : public SystemVariables {
   void set_homed(std::optional<std::uint16_t> axes) { homed_ = axes; }
   /// Radii of tools are read and written as diameters.
   void set_tool_diameters(bool diameters) { diameters_ = diameters; }
+  /// #5401 and the following are there.
+  void set_tool_times(bool there) { tool_times_ = there; }
   void set_modal_macro(bool active) { modal_macro_ = active; }
   /// A cycle was called (#3100) and not answered yet.
   bool needs_answer() const { return needs_answer_; }
@@ -112,7 +114,7 @@ class ControlVariables final : public SystemVariables {
   double hours_zero_ = 0;
   double sequence_number_ = 0;
   std::uint32_t program_number_ = 0;
-  bool modal_macro_ = false, needs_answer_ = false, diameters_ = false;
+  bool modal_macro_ = false, needs_answer_ = false, diameters_ = false, tool_times_ = false;
   double answer_ = 0;  // to the newest call of a cycle
   double parts_ = 0;
   AxisValues skip_position_{};

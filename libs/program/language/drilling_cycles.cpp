@@ -83,6 +83,8 @@ Fault DrillingCycles::read_cycle_words() {
   CycleWords& words = state_.change_settings().cycle;
   HoleParameters& hole = words.hole;
   const ModalState& modal = state_.modal;
+  constexpr std::uint8_t back_boring = 87;
+  if (words_.haas() && !words.has_r && modal.cycle != back_boring) hole.r = hole.initial, words.has_r = true;
   if (words_.has('R')) {
     const double word = words_.length('R');
     hole.r = modal.absolute ? word : hole.initial + word;

@@ -3,15 +3,20 @@
 
 namespace trunnion::language {
 
-EndlessLoop::EndlessLoop(bool travel) : travel_(travel) {}
+EndlessLoop::EndlessLoop(bool travel, std::uint64_t most_returns)
+    : travel_(travel), most_returns_(most_returns) {}
 
 bool EndlessLoop::returns(const ReadingPlace& place, std::uint32_t main_line, const Variables& variables,
                           const AxisValues& position, const ModalState& modal) {
   ++count_;
-  const bool same = place == place_ && (!travel_ || position == position_) && variables.same_as(*image_);
+  const bool reads_own = variables.own_state_read_since(*image_);
+  const bool everywhere = !travel_ && !reads_own;
+  const bool same = place == place_ && (everywhere || position == position_) && variables.same_as(*image_);
   // The first pass may begin in another modal state, and an alarm may be in the second. Frames are counted:
   // what makes one in each pass is never in the same state.
-  if (same && (modal == modal_ || ++matches_ == 2)) {
+  const bool certain = same && (modal == modal_ || (!reads_own && ++matches_ == 2));
+  gave_up_ = !certain && count_ > most_returns_;
+  if (certain || gave_up_) {
     line_ = main_line;
     return true;
   }

@@ -30,20 +30,28 @@ struct ReadingPlace {
 
 /// Compares each return to a line that was read before with an earlier one (Brent: with the newest whose
 /// count is a power of two). A program is certain to repeat when place and variables are the same and it has
-/// read no system variable in between; one that reads them is not found.
+/// read no system variable in between, or none but of its own position and modal state, and these are the
+/// same. What reads others, or counts on and on, is given up after very many returns.
 class EndlessLoop {
  public:
-  /// Without `travel` the axes may move on and on: only with it must the position be the same, too.
-  explicit EndlessLoop(bool travel);
+  /// A surface of 200 mm by 200 mm that macros mill in steps of 0.1 mm has 4 million.
+  static constexpr std::uint64_t usual_most_returns = 5000000;
 
-  /// The program has returned to `place`; whether it will do so for ever.
+  /// Without `travel` the axes may move on and on: only with it must the position be the same, too.
+  explicit EndlessLoop(bool travel, std::uint64_t most_returns = usual_most_returns);
+
+  /// The program has returned to `place`; whether it will do so for ever, or has done so too often.
   bool returns(const ReadingPlace& place, std::uint32_t main_line, const Variables& variables,
                const AxisValues& position, const ModalState& modal);
   /// Of the main program, where it repeats; 0 when that was not found.
   std::uint32_t line() const { return line_; }
+  /// It is not certain that the program repeats: it has returned more than `most_returns` times.
+  bool gave_up() const { return gave_up_; }
 
  private:
   bool travel_;
+  bool gave_up_ = false;
+  std::uint64_t most_returns_;
   std::uint32_t line_ = 0;
   std::uint64_t count_ = 0, next_ = 1, matches_ = 0;
   ReadingPlace place_;

@@ -219,6 +219,8 @@ class Environment {
   virtual double curve_tolerance() const { return 0.005; }
   /// What the machine's logic carries out; null when no machine is known and every M code may stand.
   virtual const MFunctions* m_functions() const { return nullptr; }
+  /// Nothing is known of the logic: an M code that m_codes does not have may stand with P, Q, R and H.
+  virtual bool m_codes_take_words() const { return false; }
   /// Parameters 010920 .. 010923.
   virtual AngleMCodes angle_m_codes() const { return {19, -1, -1, -1}; }
   /// What a decimal point in the P of a dwell means (parameter 040918).

@@ -90,6 +90,7 @@ bool may_be_foreign(AlarmNumber number) {
   switch (number) {
     case AlarmNumber::unknown_character:
     case AlarmNumber::number_missing:
+    case AlarmNumber::not_an_integer:
     case AlarmNumber::unknown_instruction:
     case AlarmNumber::statement_not_first:
     case AlarmNumber::text_behind_statement:

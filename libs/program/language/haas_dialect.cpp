@@ -144,7 +144,7 @@ DialectRules HaasDialect::rules() const {
   DialectRules rules;
   rules.number_counts = false;
   rules.system_number = haas_system_number;
-  rules.tool_diameters = true;
+  rules.tool_diameters = rules.tool_times = true;
   return rules;
 }
 

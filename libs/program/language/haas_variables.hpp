@@ -41,6 +41,7 @@ inline constexpr std::array haas_variables = {
     HaasVariables{5061, 5066, 5061, "where the skip signal came"},
     HaasVariables{5081, 5086, 5081, "tool length in force"},
     HaasVariables{5221, 5326, 5221, "G54 to G59, 20 apart"},
+    HaasVariables{5401, 5500, 5401, "seconds of a tool at feed: 0, not counted"},
     HaasVariables{7001, 7386, 7001, "G154 P1 to P20, 20 apart"},
     HaasVariables{10100, 10199, 100, "as #100 .. #199"},
     HaasVariables{10500, 10699, 500, "as #500 .. #699"},

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "language/computed_word.hpp"
 #include "language/foreign_words.hpp"
 #include "language/haas_dialect.hpp"
 #include "language/iso_dialect.hpp"
@@ -140,10 +141,16 @@ Alarm Interpreter::located(const Fault& fault, std::string_view line) {
     return make_alarm({fault.number, 0}, {}, levels_[depth_].program, executor_.interference().line,
                       executor_.fault_detail(fault.number));
   }
-  const std::string_view detail = fault.number == AlarmNumber::spindle_without_mark
-                                      ? std::string_view(control_.unmarked())
-                                      : executor_.fault_detail(fault.number);
-  Alarm alarm = make_alarm(fault, line, levels_[depth_].program, line_, detail);
+  std::string_view detail = fault.number == AlarmNumber::spindle_without_mark
+                                ? std::string_view(control_.unmarked())
+                                : executor_.fault_detail(fault.number);
+  Fault found = fault;
+  WordDetail computed;
+  if (detail.empty()) {
+    detail = computed_word(fault, line, variables_, computed);
+    if (!detail.empty()) found.detail = nullptr;
+  }
+  Alarm alarm = make_alarm(found, line, levels_[depth_].program, line_, detail);
   alarm.calls = static_cast<std::uint8_t>(depth_);
   for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {levels_[i].program, levels_[i + 1].call_line};
   return alarm;
@@ -192,6 +199,7 @@ void Interpreter::use_dialect(ProgramDialect name) {
 void Interpreter::take_rules() {
   rules_ = dialect_->rules();
   variables_.set_numbers(rules_.system_number);
+  control_.set_tool_times(rules_.tool_times);
   control_.set_tool_diameters(rules_.tool_diameters && !environment_.haas_radius_offsets());
 }
 
@@ -287,6 +295,7 @@ Interpreter::State Interpreter::execute_block(std::string_view line) {
   if (const Fault fault = dialect_->read_block(line, options_.block_skip, variables_, block_))
     return level.started ? fail(fault, line) : pass_leader(fault, line);
   if (block_.skipped) return State::running;
+  level.taped = block_.head == Head::tape_mark || (level.taped && block_.empty());
   if (block_.head != Head::none && level.started) {
     // On other controls : is a main block in the middle of a program.
     if (is_colon_head(line)) return fail({AlarmNumber::colon_in_program, 0}, line);

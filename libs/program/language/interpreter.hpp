@@ -167,6 +167,7 @@ class Interpreter {
     std::uint32_t call_line = 0;  // of the caller
     std::uint32_t remaining = 0;  // repetitions after this one
     bool started = false;         // a head or a word has been read
+    bool taped = false;           // nothing but comments has been read behind the % of the tape
     bool own_variables = false;
     bool by_code = false;     // codes that call programs are ordinary ones here
     bool from_label = false;  // begins at `label`

@@ -177,6 +177,7 @@ Interpreter::State Interpreter::enter(const Found& target) {
   level.top = target.top;
   level.home = target.home;
   level.call_line = call_line_;
+  level.taped = false;
   level.remaining = (target.repetitions != 0 && !call_.counted ? target.repetitions : call_.repetitions) - 1;
   level.started = false;
   level.own_variables = call_.kind != CallKind::subprogram;

@@ -177,6 +177,11 @@ Interpreter::State Interpreter::pass_leader(const Fault& fault, std::string_view
   const Leader leader = blank_tape ? Leader{true, blank} : dialect_->leader(line);
   if (!leader.passes || leader.mark == 0) return fail(fault, line);
   not_found_ = named(fault, line);
+  CallLevel& level = levels_[depth_];
+  if (leader.named && level.taped && not_found_.foreign == nullptr) {
+    level.started = true;
+    return State::running;
+  }
   search_.purpose = Purpose::leader;
   search_.source = levels_[depth_].source;
   return pass_leader(leader, position_);

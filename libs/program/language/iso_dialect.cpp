@@ -119,7 +119,7 @@ class BlockReader {
     const bool start = at_start();
     const bool numbered = is_skip_level(scanner_.peek(1));
     if ((skip_is_read_ && (lone_skip_ || !numbered)) || follows_variable(at))
-      return {AlarmNumber::misplaced_head, at};
+      return {AlarmNumber::misplaced_head, at, no_comment(line_, at)};
     done = take_skip();
     block_.skipped = done && start;
     if (!start && nothing_follows(scanner_)) return {AlarmNumber::misplaced_head, at};
@@ -213,7 +213,7 @@ class BlockReader {
   /// The . or the digits at `at` belong to the number of the word before: X1 . 5. Two groups of digits
   /// without a point between them are refused: where a letter is forgotten, X5 5 would be X55.
   Fault continue_number(std::uint16_t at) {
-    const Fault unknown{AlarmNumber::unknown_character, at};
+    const Fault unknown{AlarmNumber::unknown_character, at, missing_letter(line_, at)};
     std::size_t first = at;
     while (first > 0 && (is_blank(line_[first - 1]) || belongs_to_number(line_[first - 1]))) --first;
     if (first == 0) return unknown;

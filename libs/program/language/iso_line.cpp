@@ -171,6 +171,27 @@ bool nothing_follows(Scanner scanner) {
   return !skip_comments(scanner) || scanner.at_end() || scanner.peek() == ';';
 }
 
+Value number_in(std::string_view text) {
+  const Decimal decimal = read_decimal(text.data(), text.data() + text.size());
+  const bool whole = decimal.status == DecimalStatus::ok && decimal.end == text.data() + text.size();
+  return whole ? Value::of(decimal.value) : Value();
+}
+
+// A line that is a number of several digits with a leading zero was O1000 once.
+const char* missing_letter(std::string_view line, std::size_t at) {
+  constexpr std::string_view blanks = " \t";
+  const std::string_view number = line.substr(at);
+  if (!is_digit(number[0]) && !(number.size() > 1 && is_digit(number[1]))) return nullptr;
+  const bool begins = line.substr(0, at).find_first_not_of(blanks) == std::string_view::npos;
+  const std::size_t digits = std::min(number.find_first_not_of("0123456789"), number.size());
+  if (begins && number[0] == '0' && digits > 3) return "is the first 0 meant as the letter O?";
+  return "a letter is missing before the number";
+}
+
+const char* no_comment(std::string_view line, std::size_t at) {
+  return at > 0 && line[at - 1] == '/' ? "comments are in ( ) or behind ;" : nullptr;
+}
+
 std::size_t find_nested_comment(std::string_view line) {
   for (Scanner scanner(line); !scanner.at_end() && scanner.peek() != ';';) {
     if (scanner.peek() != '(') {

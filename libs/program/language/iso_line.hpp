@@ -9,6 +9,7 @@
 #include "language/alarms.hpp"
 #include "language/block.hpp"
 #include "language/scanner.hpp"
+#include "language/variables.hpp"
 
 namespace trunnion::language {
 
@@ -45,6 +46,14 @@ Fault end_of_line(Scanner& scanner);
 bool skip_comments(Scanner& scanner);
 /// Whether only comments are left.
 bool nothing_follows(Scanner scanner);
+/// The number that is all of the text; vacant when there is none.
+Value number_in(std::string_view text);
+
+/// What is wrong with the number that begins at byte `at` where a word should; null: it is no number.
+const char* missing_letter(std::string_view line, std::size_t at);
+/// What is wrong with the / at byte `at` when it is the second of two; else null.
+const char* no_comment(std::string_view line, std::size_t at);
+
 /// The byte of a ( inside a comment that ends before a ) without a (, or npos.
 std::size_t find_nested_comment(std::string_view line);
 

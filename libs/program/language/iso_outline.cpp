@@ -89,6 +89,23 @@ bool numbered_head(Scanner scanner) {
   return is_digit(scanner.peek(0)) || scanner.peek(0) == '<';
 }
 
+/// OWASHER or O FINAL PART-1 (TEXT): O, names of which none could begin a block, and comments.
+bool is_named_head(std::string_view line) {
+  Scanner scanner(line);
+  if (!scanner.more() || letter(scanner.peek()) != 'O') return false;
+  scanner.advance();
+  if (!scanner.more() || letter(scanner.peek()) == '\0') return false;
+  const auto in_name = [](char c) {
+    return letter(c) != '\0' || is_digit(c) || c == '_' || c == '-' || c == '.';
+  };
+  while (!nothing_follows(scanner)) {
+    scanner.skip_blanks();
+    if (!in_name(scanner.peek()) || begins_block(scanner)) return false;
+    while (!scanner.at_end() && in_name(scanner.peek())) scanner.advance();
+  }
+  return true;
+}
+
 /// A jump may lead behind the line, so that read_block does not see it.
 bool is_passed(Statement statement) {
   return statement == Statement::else_ || statement == Statement::end_if ||
@@ -125,6 +142,7 @@ Outline IsoDialect::outline(std::string_view line, SkipLevels skip) const {
 
 Leader IsoDialect::leader(std::string_view line) const {
   Leader leader;
+  leader.named = is_named_head(line);
   // Text with NUL in it is one of two bytes a character: a program that cannot be read, and no leader.
   const std::size_t printed = line.find_first_not_of('\0');
   if (printed != std::string_view::npos && line.find('\0', printed) != std::string_view::npos) return leader;

@@ -307,6 +307,12 @@ Fault ModalCodes::set_finish(std::uint16_t) {
   return {};
 }
 
+Fault ModalCodes::pass_condition(std::uint16_t) {
+  words_.use('P');
+  words_.use('Q');
+  return {};
+}
+
 Fault ModalCodes::set_motion(std::uint16_t, std::uint8_t motion) {
   state_.modal.motion = motion;
   state_.modal.cycle = 80;

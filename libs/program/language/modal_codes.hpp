@@ -28,6 +28,7 @@ class ModalCodes : private BlockHandler {
   Fault set_smoothing(std::uint16_t at);        ///< G5.1
   Fault set_look_ahead(std::uint16_t at);       ///< G8
   Fault set_finish(std::uint16_t at);           ///< G187
+  Fault pass_condition(std::uint16_t at);       ///< G120.1
   Fault set_motion(std::uint16_t at, std::uint8_t motion);
   Fault set_cycle(std::uint16_t at, std::uint8_t cycle);
 

@@ -355,7 +355,22 @@ Fault PathMotion::find_circle(const AxisValues& target, std::uint16_t& at, Arc& 
     return {AlarmNumber::arc_centre_missing, at,
             modal ? "R, I, J and K hold for their block alone" : nullptr};
   }
-  return {arc_from_centre(start, target, centre_offset, turns, radius_deviation_, arc), at};
+  const AlarmNumber number = arc_from_centre(start, target, centre_offset, turns, radius_deviation_, arc);
+  if (number == AlarmNumber::arc_radii_differ) note_radii(target, arc);
+  return {number, at};
+}
+
+void PathMotion::note_radii(const AxisValues& target, const Arc& arc) {
+  const PlaneAxes plane = plane_axes(arc.plane);
+  const auto radius = [&](const AxisValues& point) {
+    return std::hypot(point[plane.first] - arc.centre[plane.first],
+                      point[plane.second] - arc.centre[plane.second]);
+  };
+  const double start = radius(state_.program_position), end = radius(target);
+  FaultDetail& detail = context_.detail;
+  detail.number = AlarmNumber::arc_radii_differ;
+  std::snprintf(detail.text.data(), detail.text.size(), "%.4f and %.4f mm, %.4f mm apart", start, end,
+                std::abs(start - end));
 }
 
 Fault PathMotion::move_on_arc(const Arc& arc, const AxisValues& target) {

@@ -43,6 +43,8 @@ class PathMotion : private BlockHandler {
   Fault move_to_corner(const OpenLine& open, Vector2 corner);
   /// What the block asks for at the end of its move.
   Fault read_corner(std::optional<Corner>& corner);
+  /// For the alarm: the radii of a circle at its start and at `target`, which differ.
+  void note_radii(const AxisValues& target, const Arc& arc);
   Fault set_turns(const AxisValues& target, Arc& arc);
   Fault move_on_arc(const Arc& arc, const AxisValues& target);
 

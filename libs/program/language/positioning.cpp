@@ -76,6 +76,8 @@ Fault Positioning::move_by_offset(std::uint16_t at, int times) {
   const ModalState& modal = state_.modal;
   if (!state_.frame().plain() || modal.polar) return {AlarmNumber::frame_shift, at};
   if (modal.motion > 1 || modal.tool_vector) return {AlarmNumber::offset_move, at};
+  if (words_.has('H') && !words_.used('H'))
+    return {AlarmNumber::unused_word, words_.offset('H'), "the offset of G45 to G48 is D"};
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   std::uint32_t axes = 0;
   if (const Fault fault = words_.take_axes(at, axes)) return fault;
@@ -151,6 +153,8 @@ Fault Positioning::return_to(std::uint16_t at, const AxisValues& reference) {
   std::uint32_t axes = environment_.axes();
   AxisValues over = state_.program_position;
   if (!words_.every_axis()) {
+    if ((words_.letters() & axis_bits) == 0)
+      return {AlarmNumber::missing_word, at, "needs axes: X0 Y0 Z0, or Z0 with G91"};
     if (const Fault fault = words_.take_axes(at, axes)) return fault;
     over = programmed_target(axes);
   }

@@ -2,6 +2,7 @@
 // One line of program text from left to right.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -88,20 +89,29 @@ class Scanner {
     p_ = decimal.end;
     return decimal;
   }
-  /// Past the closing parenthesis; false when there is none.
-  /// The first ) ends it, with further ones behind blanks that close comments within it: (A (B)).
+  /// Past the ) of the comment that begins here, which may have comments within it: (A (B) C). Where they are
+  /// not all closed the first ) ends it, with further ones directly behind. False, and at the end, when there
+  /// is none.
   bool skip_comment() {
-    int within = -1;
-    for (; p_ != end_ && *p_ != ')'; ++p_) within += *p_ == '(' ? 1 : 0;
-    if (p_ == end_) return false;
-    ++p_;
-    for (; within > 0; --within) {
+    constexpr std::ptrdiff_t farthest = 256;  // behind the first ), so that no line takes long
+    const char* first = nullptr;
+    std::size_t open = 0, within = 0;
+    for (const char* p = p_; p != end_ && (first == nullptr || p - first < farthest); ++p) {
+      if (*p == '(') ++open;
+      if (*p != ')') continue;
+      if (first == nullptr) first = p + 1, within = open - 1;
+      if (--open > 0) continue;
+      p_ = p + 1;
+      return true;
+    }
+    p_ = first == nullptr ? end_ : first;
+    for (; first != nullptr && within > 0; --within) {
       const char* behind = p_;
       while (behind != end_ && is_blank(*behind)) ++behind;
       if (behind == end_ || *behind != ')') break;
       p_ = behind + 1;
     }
-    return true;
+    return first != nullptr;
   }
 
  private:

@@ -11,6 +11,25 @@ const VariableRange* system_range(double number) {
   return nullptr;
 }
 
+/// The variable is what the program itself has made of its position and its modal codes; N and O are not
+/// among them.
+bool is_own_state(const VariableRange& range, std::uint32_t index) {
+  constexpr std::uint32_t modal_numbers = 200, sequence_number = 114, program_number = 115;
+  switch (range.kind) {
+    case VariableKind::block_end:
+    case VariableKind::machine_position:
+    case VariableKind::work_position:
+    case VariableKind::active_length:
+      return true;
+    case VariableKind::modal: {
+      const std::uint32_t word = (range.first + index) % modal_numbers;
+      return word != sequence_number && word != program_number;
+    }
+    default:
+      return false;
+  }
+}
+
 /// Why a variable of Fanuc controls does not exist here.
 AlarmNumber refusal(VariableKind kind) {
   switch (kind) {
@@ -30,7 +49,7 @@ AlarmNumber refusal(VariableKind kind) {
 void Variables::start(const VariableStore& store) {
   store_ = store;
   level_ = 0;
-  system_reads_ = 0;
+  system_reads_ = own_reads_ = 0;
   written_count_ = 0;
   levels_[0].arguments.clear();
   levels_[0].values.fill({});
@@ -51,6 +70,7 @@ void Variables::copy_to(VariableImage& image) const {
   for (std::size_t i = 0; i <= level_; ++i) image.locals[i] = levels_[i].values;
   image.level = level_;
   image.system_reads = system_reads_;
+  image.own_reads = own_reads_;
 }
 
 // The locals first: a loop counts in them most often.
@@ -74,7 +94,8 @@ const Value* Variables::stored(double number) const {
   };
   if (const Value* const value = in(50, store_.common)) return value;
   if (const Value* const value = in(500, store_.kept)) return value;
-  return in(50000, store_.user);
+  if (const Value* const value = in(50000, store_.user)) return value;
+  return in(900000, store_.extended);
 }
 
 AlarmNumber Variables::read_common(double number, Value& value) const {
@@ -86,8 +107,9 @@ AlarmNumber Variables::read_common(double number, Value& value) const {
   const VariableRange* const range = system_range(number);
   if (range == nullptr) return AlarmNumber::variable_unknown;
   if (const AlarmNumber refused = refusal(range->kind); refused != AlarmNumber::none) return refused;
-  ++system_reads_;
-  return system_.read(*range, static_cast<std::uint32_t>(number) - range->first, value);
+  const std::uint32_t index = static_cast<std::uint32_t>(number) - range->first;
+  ++(is_own_state(*range, index) ? own_reads_ : system_reads_);
+  return system_.read(*range, index, value);
 }
 
 AlarmNumber Variables::write(double number, Value value) {

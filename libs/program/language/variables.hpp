@@ -54,7 +54,8 @@ enum class VariableKind : std::uint8_t {
   mirror,
   parts,
   macro_signal,
-  setting,  ///< refused, as the next two
+  tool_time,  ///< in Haas programs only
+  setting,    ///< refused, as the next two
   required_parts,
   servo_deviation,
   external,  ///< an external parameter of the NUM dialect: in no range
@@ -146,6 +147,8 @@ inline constexpr std::array variable_ranges = {
                   "external work offset, which is added to every other, X Y Z A B C U V W"},
     VariableRange{5221, 5329, VariableKind::work_offset, true,
                   "work offsets: 5221 X of G54, 5241 of G55 .. 5321 of G59"},
+    VariableRange{5401, 5500, VariableKind::tool_time, false,
+                  "Haas programs: seconds of tool 1 to 100 at feed, 0, since they are not counted here"},
     VariableRange{7001, 7949, VariableKind::extended_work_offset, true,
                   "work offsets: 7001 X of G54.1 P1, 7021 of P2 .. 7941 of P48"},
     VariableRange{10001, 10999, VariableKind::length_wear, true, "tool length wear of tool 1 to 999, mm"},
@@ -155,6 +158,8 @@ inline constexpr std::array variable_ranges = {
     VariableRange{14001, 14949, VariableKind::extended_work_offset, true,
                   "work offsets as #7001: 14001 X of G54.1 P1 .. 14941 of P48"},
     VariableRange{50000, 54999, VariableKind::user, true, "common to all programs, kept"},
+    VariableRange{900000, 907399, VariableKind::user, true,
+                  "common to all programs, kept; the extended common variables of Fanuc 30i and 31i"},
 };
 
 /// Whether a variable is the control's and not a place to store something.
@@ -163,16 +168,18 @@ constexpr bool is_system_variable(double number) { return number >= 1000 && numb
 /// What outlives a program. Its user takes it out when a program ends and hands it to the next; a program
 /// that is interpreted again needs it as it was at that program's start.
 struct VariableStore {
-  std::array<Value, 150> common{};  ///< #50..#199
-  std::array<Value, 500> kept{};    ///< #500..#999
-  std::array<Value, 9> skip{};      ///< #5061..#5069, mm and degrees whatever the units of the program
-  std::array<Value, 5000> user{};   ///< #50000..#54999
+  std::array<Value, 150> common{};     ///< #50..#199
+  std::array<Value, 500> kept{};       ///< #500..#999
+  std::array<Value, 9> skip{};         ///< #5061..#5069, mm and degrees whatever the units of the program
+  std::array<Value, 5000> user{};      ///< #50000..#54999
+  std::array<Value, 7400> extended{};  ///< #900000..#907399
   bool operator==(const VariableStore&) const = default;
 
   /// visit(number of the first, values) for every range.
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit(50u, self.common), visit(500u, self.kept), visit(5061u, self.skip), visit(50000u, self.user);
+    visit(50u, self.common), visit(500u, self.kept), visit(5061u, self.skip), visit(50000u, self.user),
+        visit(900000u, self.extended);
   }
 };
 
@@ -185,6 +192,7 @@ struct VariableImage {
   std::array<std::array<Value, local_variables>, variable_levels> locals{};
   std::size_t level = 0;
   std::uint64_t system_reads = 0;  ///< how often the program had read one since its start
+  std::uint64_t own_reads = 0;     ///< likewise, of those that are its own position and modal state
 };
 
 /// The letters of a macro call as the variables they become.
@@ -288,8 +296,10 @@ class Variables {
 
   const VariableStore& store() const { return store_; }
   void copy_to(VariableImage& image) const;
-  /// False also when a system variable was read since.
+  /// False also when a system variable was read since, but for those of the program's own state.
   bool same_as(const VariableImage& image) const;
+  /// One of the program's own position or modal state was read since.
+  bool own_state_read_since(const VariableImage& image) const { return own_reads_ != image.own_reads; }
   /// Of the innermost level.
   const std::array<Value, local_variables>& locals() const { return levels_[level_].values; }
 
@@ -312,7 +322,7 @@ class Variables {
   VariableStore store_;
   std::array<Level, max_levels> levels_{};
   std::size_t level_ = 0;
-  mutable std::uint64_t system_reads_ = 0;
+  mutable std::uint64_t system_reads_ = 0, own_reads_ = 0;
   std::array<Written, most_taken_back> written_{};  // in this line
   std::size_t written_count_ = 0;
 };

@@ -18,7 +18,7 @@ ProgramReader::ProgramReader(channel_setup::ChannelSetup& machine, const Reading
       flow_(machine, {options.block_skip, false}),
       motionless_(machine.limits(), machine.cycle_seconds()),
       motion_(motion != nullptr ? motion : &motionless_),
-      loop_(true) {}
+      loop_(true, options.most_returns) {}
 
 // Where nothing limits the travel the axes may move on and on.
 ProgramReader::ProgramReader(language::Environment& environment, const ReadingOptions& options)
@@ -26,7 +26,7 @@ ProgramReader::ProgramReader(language::Environment& environment, const ReadingOp
       options_(options),
       flow_(environment, {options.block_skip, false}),
       motion_(&motionless_),
-      loop_(false) {}
+      loop_(false, options.most_returns) {}
 
 Ending ProgramReader::read(language::TextSource& text, const AxisValues& start) {
   from_ = start;
@@ -74,7 +74,7 @@ std::optional<Ending> ProgramReader::go_on_at_rest(FlowState state) {
     case FlowState::alarm:
       return Ending::alarm;
     case FlowState::end:
-      if (loop_.line() != 0) return Ending::repeats;
+      if (loop_.line() != 0) return loop_.gave_up() ? Ending::returns : Ending::repeats;
       if (flow_.pending().kind == CommandKind::end) pass(flow_.pending(), flow_.pending());
       return Ending::end;
     case FlowState::loop:

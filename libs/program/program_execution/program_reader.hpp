@@ -19,6 +19,7 @@ enum class Ending : std::uint8_t {
   end,           ///< the program ends; M99 in the main program is an end
   repeats,       ///< it would repeat for ever, from repeats_from()
   idle,          ///< it reads on and on without a move: it may wait for a time
+  returns,       ///< it has returned to earlier lines too often, the last time to repeats_from()
   alarm,         ///< alarm(), alarm_text()
   stopped,       ///< by ProgramReader::stop or the motion
   text_missing,  ///< the source of the text does not deliver
@@ -29,6 +30,8 @@ struct ReadingOptions {
   MoveGuard* guard = nullptr;             ///< looks at the moves; must outlive the reader
   language::BlockWatch* watch = nullptr;  ///< sees the blocks before their commands come; likewise
   bool find_repetition = true;
+  /// To earlier lines, after which a program is Ending::returns.
+  std::uint64_t most_returns = language::EndlessLoop::usual_most_returns;
   /// In a row, without a move, after which a program is Ending::idle.
   std::uint64_t most_idle_lines = 100000000;
   /// Values of spindles and signals, likewise.

@@ -15,6 +15,8 @@ void add(std::span<const language::Value> values, std::uint32_t first, idl::chan
 
 }  // namespace
 
+// Of the extended common variables, #900000 and the following, nothing is shown: the message has no room for
+// all of them.
 idl::channel::Variables variable_message(const language::VariableStore& variables, std::uint16_t channel) {
   idl::channel::Variables out;
   out.channel = channel;

@@ -71,7 +71,7 @@ void read_variables(const std::string& text, const std::string& file, const std:
     if (variable == nullptr)
       throw std::runtime_error(file + ":" + std::to_string(line) +
                                ": expected '#number: value' of #50..#199, #500..#999, #5061..#5069 or "
-                               "#50000..#54999");
+                               "#50000..#54999, #900000..#907399");
     if (number >= first_kept || same_boot) *variable = language::Value::of(value);
   }
 }

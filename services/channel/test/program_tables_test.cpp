@@ -22,6 +22,7 @@ TEST(VariableText, BringsVariablesBackBitForBitAndVacantOnesStayVacant) {
   before->kept[0] = Value::of(0.1);
   before->kept[499] = Value::of(-1.0 / 3);
   before->user[4999] = Value::of(std::numeric_limits<double>::denorm_min());
+  before->extended[7399] = Value::of(1e-9);
   before->skip[8] = Value::of(-0.5);
   before->common[5] = Value::of(7);
   auto after = std::make_unique<language::VariableStore>();
@@ -29,6 +30,7 @@ TEST(VariableText, BringsVariablesBackBitForBitAndVacantOnesStayVacant) {
   EXPECT_EQ(after->kept[0].number, 0.1);
   EXPECT_EQ(after->kept[499].number, -1.0 / 3);
   EXPECT_EQ(after->user[4999].number, std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(after->extended[7399].number, 1e-9);
   EXPECT_FALSE(after->kept[1].given);
   EXPECT_EQ(after->skip[8].number, -0.5);
   EXPECT_FALSE(after->skip[0].given);

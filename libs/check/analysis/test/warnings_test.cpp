@@ -97,6 +97,14 @@ std::vector<Doubtful> doubtful_programs() {
        "radius 5.0000 mm at the start, 5.0200 mm at the end"},
       {condition_brackets, prelude + "#1=1\nIF #1 EQ 2 GOTO 10\nN10 M30\n", "line 6:4", ""},
       {condition_order, prelude + "#1=1\nIF [#1 EQ 1 AND #2 EQ 0] GOTO 10\nN10 M30\n", "line 6:4", ""},
+      {cycle_active, prelude + "G0 Z50\nG81 X5 Y5 Z10 R40 F300\nT2 M6\nG80\nG43 H2\nM30\n", "line 7:4",
+       "G81 at M6"},
+      {cycle_active, prelude + "G0 Z50\nG83 X5 Y5 Z10 R40 Q9 F300\nG91 G28 Z0\nM8\nG90 X9\nG80\nM30\n",
+       "line 7:5", "G83 at G28 or G30"},
+      {cycle_below, prelude + "G0 Z30\nG81 X5 Y5 Z10 R40 F300\nG80\nG0 Z60\nM30\n", "line 6:15",
+       "Z is at 30.000, R at 40.000 mm"},
+      {cycle_below, prelude + "G0 Z30\nG91 G81 X5 Y5 Z-3 R1.5 F300\nG80\nG90 G0 Z60\nM30\n", "line 6:19",
+       "Z is at 30.000, R at 31.500 mm"},
       {end_missing, prelude + "G0 Z50\n", "line 5:1", ""},
   };
 }
@@ -133,23 +141,27 @@ TEST(Warnings, MCodesOfOtherControlsWhereNoMachineIsNamed) {
 // What is right beside what is doubtful.
 TEST(Warnings, GoodProgramsHaveNone) {
   for (const std::string& program : {
-           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG0 X20 Z60\nX30 Z55\nM30\n",       // down, but in the air
-           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG0 Z60\nX30\nZ45\nM30\n",          // one after the other
-           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG91 G28 Z0\nG90\nM30\n",           //
-           prelude + "G0 X0 Y0 Z50\nG28 Z60\nM30\n",                                // a point above
-           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG3 X10 Y10 R5\nG1 X0\nM30\n",      // exactly half a turn
-           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG3 X15 Y5 R5\nG1 Y10\nM30\n",      // a rounded corner
-           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG2 X15 Y5 R5\nG1 Y10\nM30\n",      // one cut out
-           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG3 X15.001 Y5 I0 J5\nM30\n",       // rounded to 1 um
-           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG3 I0 J5\nG1 X20\nM30\n",          // a whole circle
-           prelude + "G0 X0 Y0 Z50\nG41 D1 G1 X10 F500\nX40\nG40 X60\nM30\n",       //
-           prelude + "G0 X0 Y0 Z50 A0 C0\nG1 A5 F500\nG1 X10\nM30\n",               // not together
-           prelude + "G43.4 H1\nG0 X0 Y0 Z50 A0 C0\nG1 X10 A5 F500\nG49\nM30\n",    //
-           prelude + "G93\nG0 X0 Y0 Z50\nG1 X10 F5\nM30\n",                         //
-           prelude + "#1=1\nIF [[#1 EQ 1] AND [#2 EQ 0]] GOTO 10\nN10 M30\n",       //
-           prelude + "#1=1\nWHILE [#1 LT 3] DO 1\n#1=#1+1\nEND 1\nM30\n",           //
-           prelude + "T2\nG0 Z50\nM6\nG43 H2\nM30\n",                               // made ready before
-           prelude + "G0 Z50\nG81 X5 Y5 Z10 R40 F300\nX10\nG80\nG0 X0 Z60\nM30\n",  //
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG0 X20 Z60\nX30 Z55\nM30\n",         // down, but in the air
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG0 Z60\nX30\nZ45\nM30\n",            // one after the other
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG91 G28 Z0\nG90\nM30\n",             //
+           prelude + "G0 X0 Y0 Z50\nG28 Z60\nM30\n",                                  // a point above
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG3 X10 Y10 R5\nG1 X0\nM30\n",        // exactly half a turn
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG3 X15 Y5 R5\nG1 Y10\nM30\n",        // a rounded corner
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG2 X15 Y5 R5\nG1 Y10\nM30\n",        // one cut out
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG3 X15.001 Y5 I0 J5\nM30\n",         // rounded to 1 um
+           prelude + "G0 X0 Y0 Z50\nG1 X10 F500\nG3 I0 J5\nG1 X20\nM30\n",            // a whole circle
+           prelude + "G0 X0 Y0 Z50\nG41 D1 G1 X10 F500\nX40\nG40 X60\nM30\n",         //
+           prelude + "G0 X0 Y0 Z50 A0 C0\nG1 A5 F500\nG1 X10\nM30\n",                 // not together
+           prelude + "G43.4 H1\nG0 X0 Y0 Z50 A0 C0\nG1 X10 A5 F500\nG49\nM30\n",      //
+           prelude + "G93\nG0 X0 Y0 Z50\nG1 X10 F5\nM30\n",                           //
+           prelude + "#1=1\nIF [[#1 EQ 1] AND [#2 EQ 0]] GOTO 10\nN10 M30\n",         //
+           prelude + "#1=1\nWHILE [#1 LT 3] DO 1\n#1=#1+1\nEND 1\nM30\n",             //
+           prelude + "T2\nG0 Z50\nM6\nG43 H2\nM30\n",                                 // made ready before
+           prelude + "G0 Z50\nG81 X5 Y5 Z10 R40 F300\nX10\nG80\nG0 X0 Z60\nM30\n",    //
+           prelude + "G0 Z50\nG81 X5 Y5 Z10 R40 F300\nG91 G28 Z0\nM30\n",             // the end
+           prelude + "G0 Z50\nG81 X5 Y5 Z10 R40 F300\nG91 G28 Z0\nG90 G0 X9\nM30\n",  // G0 ends the cycle
+           prelude + "G0 Z50\nG81 X5 Y5 Z10 R50 F300\nX9 R45\nG80\nG0 Z60\nM30\n",    // not below R
+           prelude + "G0 Z50\nG91 G81 X5 Y5 Z-9 R-9 F300\nG80\nG90 G0 Z60\nM30\n",    //
            std::string("G21 G90 G54 G17\nT1 M6\nG43 H1\nG0 X0 Y0 Z50\nG1 X10 F500\nG31 L1 X20\nM30\n"),
            std::string(
                "G21 G90 G54 G17\nG53 G0 Z0\nT1 M6\nS1000 M3\nG0 X0 Y0\nG43 H1 Z50\nG1 Z40 F500\nM30\n"),

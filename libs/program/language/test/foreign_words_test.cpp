@@ -66,6 +66,14 @@ TEST(ForeignWords, AreRefusedByNameWithWhatToWriteHere) {
            {"G234 H1\n", 1, 1, ": G234, Haas: write G43.4 H_"},
            {"UNo. MAT. INITIAL-Z\n", 1, 1, ": UNo, Mazatrol: convert it to EIA"},
            {"L1=5\n", 1, 1, ": L1, NUM: set 04c959 = 1"},
+           {"G71U1.5R0.5\n", 1, 1, ": G71, Fanuc, Haas: not on this control yet"},
+           {"G70 P1 Q2 F0.1\n", 1, 1, ": G70, Fanuc, Haas: not on this control yet"},
+           {"G71 P46 Q55 D0.025\n", 1, 13, ": D0.025, Fanuc, Haas: not on this control yet"},
+           {"N0000 T1.1\nN0010 M6\n", 1, 7, ": T1.1, Fagor: write T_ D_"},
+           {"G0 X1\nM3 P100\n", 2, 4, ": P100, Snapmaker: write M3 S_"},
+           {"PRINT \"x-offset = \";#100;\"mm\"\n", 1, 1, ": PRINT, Kinetic-NC: write DPRNT[_] or #3006"},
+           {"O0001\n[BILLET X58.74 Z125\n", 2, 1, ": [, Denford: put the line in brackets ( )"},
+           {": (PGM, NAME=\"1001\")\n; T1\n: G90\nG17\n", 1, 1, ": :, Acramatic: write O_ or N_"},
        }) {
     const Interpretation result = run_foreign(foreign.program);
     SCOPED_TRACE(foreign.program);
@@ -122,7 +130,8 @@ std::string sample_of(const ForeignWord& row) {
   static const std::map<std::string_view, std::string> special = {
       {"*", "X1*"}, {"R#", "IF R1"}, {"P#", "G43.4 H1 P1"}, {"L#", "G43.4 H1 L1"}, {"Q#", "G43.5 H1 Q1"}};
   const auto found = special.find(row.word);
-  if (found != special.end()) return found->second;
+  if (found != special.end() && !row.with.starts_with('M')) return found->second;
+  if (row.with.size() == 1) return std::string(row.word) + " " + std::string(row.with) + "1";
   std::string line;
   const auto add = [&](std::string_view pattern) {
     for (const char c : pattern)

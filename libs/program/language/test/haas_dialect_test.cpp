@@ -92,6 +92,16 @@ TEST(HaasDialect, TheTimeOfADwellIsInSecondsWithAPoint) {
               ElementsAre("rapid Z5", "rapid Z1", "line Z-1 F100", "dwell 0.3", "rapid Z5", "end 30"));
 }
 
+// From 3 mm above the zero, where Z stands; behind G80 it stands there again.
+TEST(HaasDialect, WithoutRACycleBeginsWhereZStands) {
+  EXPECT_THAT(haas_stream("G0 Z3.\nG81 X1 Z-5. F100\nX2\nG80\nG0 Z2.\nG82 R1. Z-1.\nG80\nG82 Z-2.\nG80\nM30"),
+              ElementsAre("rapid Z3", "rapid X1 Z3", "line X1 Z-5 F100", "rapid X1 Z3", "rapid X2 Z3",
+                          "line X2 Z-5 F100", "rapid X2 Z3", "rapid X2 Z2", "rapid X2 Z1", "line X2 Z-1 F100",
+                          "rapid X2 Z2", "line X2 Z-2 F100", "rapid X2 Z2", "end 30"));
+  EXPECT_THAT(iso_stream("G0 Z3.\nG81 X1 Z-5. F100\n"), ElementsAre("rapid Z3", "alarm 1601 2:1"));
+  EXPECT_EQ(alarm_of("G0 Z3.\nG77 X1 Z-5. Q1 F100\n"), AlarmNumber::cycle_depth_missing);
+}
+
 TEST(HaasDialect, M97CallsWhatBeginsAtASequenceNumber) {
   EXPECT_THAT(haas_stream("G0 X1\nM97 P1000 L2\nX3\nM30\nN1000 G91 Y1\nG90 M99\n"),
               ElementsAre("rapid X1", "rapid X1 Y1", "rapid X1 Y2", "rapid X3 Y2", "end 30"));
@@ -119,6 +129,12 @@ TEST(HaasDialect, TextInFrontOfTheMarkOfTheTapeIsPassed) {
   machine.dialect = ProgramDialect::iso;
   EXPECT_THAT(stream(run(machine, "PLATE 12\n%\n(DIALECT: HAAS)\nG04 P1.5\nM30\n%\n")),
               ElementsAre("dwell 1.5", "end 30"));
+}
+
+TEST(HaasDialect, TextInFrontOfTheMarkIsNoProgram) {
+  EXPECT_THAT(haas_stream("Information listing created by\n\n%\nO1234\nG0 X1\nM30\n%\n"),
+              ElementsAre("rapid X1", "end 30"));
+  EXPECT_THAT(haas_stream("%\nONONAME ( PART )\nG0 X1\nM30\n"), ElementsAre("rapid X1", "end 30"));
 }
 
 TEST(HaasDialect, M98CallsAProgramOfTheMemory) {
@@ -258,8 +274,11 @@ TEST(HaasDialect, VariablesHaveTheNumbersOfTheControl) {
   EXPECT_THAT(haas_stream("#10101=7\n#500=8\nG0 X#101 Y#10500\nM30"), ElementsAre("rapid X7 Y8", "end 30"));
   EXPECT_THAT(haas_stream("F200. S9 T1\nG0 X#4106 Y#4119 Z#4120\nM30"),
               ElementsAre("S9", "T1", "rapid X200 Y9 Z1", "end 30"));
+  EXPECT_THAT(haas_stream("IF [#5405 GE 6000] THEN #3000=15 (EXPIRED)\nG0 X[#5500+1]\nM30"),
+              ElementsAre("rapid X1", "end 30"));
+  EXPECT_THAT(iso_stream("G0 X#5405\n"), ElementsAre("alarm 1509 1:5"));
   EXPECT_THAT(haas_stream("#3006=1 (LOOK)\nM30"), ElementsAre("message 1", "M0", "end 30"));
-  for (const char* number : {"1601", "3027", "3030", "3201", "4104.5", "4201", "5007", "5201", "5401", "6001",
+  for (const char* number : {"1601", "3027", "3030", "3201", "4104.5", "4201", "5007", "5201", "5501", "6001",
                              "7387", "10001", "10700", "20001", "50001"})
     EXPECT_NE(alarm_of(std::string("G0 X#[") + number + "]"), AlarmNumber::none) << number;
   EXPECT_THAT(haas_stream("#1=#5401\nM30"), ElementsAre("alarm 1509 1:4"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Codes of other controls that choose a machining mode or a tolerance: G5, G5.1, G8, G61.1, G62, G63, G187.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "test_machine.hpp"
@@ -152,11 +153,18 @@ TEST(MachiningModes, WhatTheyDoNotKnowIsAnAlarmThatSaysWhatTheyTake) {
 }
 
 TEST(MachiningModes, ACodeWithoutEffectSaysWhy) {
-  for (const std::uint32_t tenths : {620u, 630u}) {
+  for (const std::uint32_t tenths : {620u, 630u, 1201u}) {
     ASSERT_NE(g_code(tenths), nullptr);
     EXPECT_NE(g_code(tenths)->no_effect, nullptr) << tenths;
   }
   EXPECT_EQ(g_code(640)->no_effect, nullptr);
+}
+
+TEST(MachiningModes, AMachiningConditionChangesNothing) {
+  TestMachine machine;
+  EXPECT_THAT(stream(run(machine, "G1 X1 F100\nG120.1 P1 Q3\nX2\nG120.1 Q0\nM30\n")),
+              testing::ElementsAre("line X1 F100", "line X2 F100", "end 30"));
+  EXPECT_EQ(run(machine, "G120.1 P1 X5\n").alarm.number, AlarmNumber::unused_word);
 }
 
 }  // namespace

@@ -63,6 +63,23 @@ TEST(ProgramText, WhatStandsInFrontOfTheMarkOfTheTapeIsPassed) {
       << "blank tape needs no mark";
 }
 
+// As posts write it for the operator, who enters the number.
+TEST(ProgramText, OAndANameBehindTheMarkIsAHead) {
+  for (const char* head :
+       {"ONONAME ( BANDB_MFG )", "OWASHER(Washer)", "opart-1_a", "OFinal ToolPath", "O ENTER LAST 3 DIGITS"})
+    EXPECT_THAT(stream_of("%\n(POST)\n\n" + std::string(head) + "\nG0 X1\nM30\n%\n"),
+                ElementsAre("rapid X1", "end 30"))
+        << head;
+  EXPECT_THAT(stream_of("%\nONAME\nG0 X1\nGOTO 5\nX9\nN5 X2\n%\nX3\n"),
+              ElementsAre("rapid X1", "rapid X2", "end 0"));
+  // Without the mark, behind a block, with more in the line, and a word of another control.
+  EXPECT_THAT(stream_of("ONAME\nG0 X1\n"), ElementsAre("alarm 1005 1:1"));
+  EXPECT_THAT(stream_of("%\nG0 X1\nONAME\nX2\n"), ElementsAre("rapid X1", "alarm 1005 3:1"));
+  EXPECT_THAT(stream_of("%\nONAME G0 X1\n"), ElementsAre("alarm 1005 2:1"));
+  EXPECT_THAT(stream_of("%\nO PART X5\nG0 X1\n"), ElementsAre("alarm 1005 2:1"));
+  EXPECT_THAT(stream_of("%\nORIWKS\nG0 X1\n"), ElementsAre("alarm 1540 2:1"));
+}
+
 TEST(ProgramText, NothingThatCouldBeABlockIsPassed) {
   // 1011: unknown instruction, 1003: unknown character, 1002: no UTF-8, all at the begin of the first line.
   EXPECT_THAT(stream_of("TITLE\nG0 X1\nM30\n%\n"), ElementsAre("alarm 1011 1:1"));
@@ -161,7 +178,12 @@ TEST(ProgramText, CommentsOfEveryKindAndLength) {
   EXPECT_THAT(stream_of("(" + std::string(16000, 'x') + ") X1\n"), ElementsAre("rapid X1", "end 0"));
   EXPECT_THAT(stream_of("(" + std::string(17000, 'x') + ") X1\n"), ElementsAre("alarm 1001 1:1"));
   EXPECT_THAT(stream_of("X1 (A ( B) Y1\n"), ElementsAre("rapid X1 Y1", "end 0")) << "one ) ends it";
-  EXPECT_THAT(stream_of("X1 (A (B)) Y1 ((C) (D) )\n"), ElementsAre("alarm 1174 1:16"));
+  EXPECT_THAT(stream_of("X1 (A (B)) Y1 ((C) (D) )\n"), ElementsAre("rapid X1 Y1", "end 0"));
+  EXPECT_THAT(stream_of("(FROM (48.5, 53.5) TO (59.5, 71) ) X1 (NOT (1) X2) Y1\n"),
+              ElementsAre("rapid X1 Y1", "end 0"));
+  // What other controls would read is read.
+  EXPECT_THAT(stream_of("(A (B) X1 (C)\n"), ElementsAre("rapid X1", "end 0"));
+  EXPECT_THAT(stream_of("X1 (A ((B) Y1 )\n"), ElementsAre("alarm 1174 1:7"));
   EXPECT_THAT(stream_of("X1 (A (B)) Y1 ((C ((D) ) )\n"), ElementsAre("rapid X1 Y1", "end 0"));
   EXPECT_THAT(stream_of("X1 (A (B) ) Y1 ) Z1\n"), ElementsAre("alarm 1003 1:16")) << "of no comment";
 }

@@ -39,6 +39,19 @@ TEST(Variables, StoreGoesFromProgramToProgramAndLocalsDoNot) {
   EXPECT_FALSE(second.kept[2].given);
 }
 
+// As on Fanuc 30i and 31i: 7400 of them, read and written in one line like the others.
+TEST(Variables, TheExtendedCommonOnesAreKept) {
+  TestMachine machine;
+  const VariableStore first = after("#900000=1 #901001=2 #907399=#901001+1", no_variables, machine);
+  EXPECT_EQ(first.extended.front().number, 1);
+  EXPECT_EQ(first.extended[1001].number, 2);
+  EXPECT_EQ(first.extended.back().number, 3);
+  EXPECT_FALSE(first.extended[1].given);
+  EXPECT_EQ(after("#500=#901001", first, machine).kept[0].number, 2);
+  for (const char* beyond : {"#899999=1", "#907400=1"})
+    EXPECT_EQ(run(machine, beyond).alarm.number, AlarmNumber::variable_unknown) << beyond;
+}
+
 TEST(Variables, InterpretingAgainFromTheStoreOfTheStartGivesTheSame) {
   TestMachine machine;
   const std::string text =

@@ -153,6 +153,25 @@ TEST_F(Reading, EndsWhereAProgramWouldRepeatForEver) {
   EXPECT_EQ(read("G0 X1\nM99\n"), Ending::end) << "once through is all there is";
 }
 
+// What it reads of itself is the same in each pass; the second one moves to another place each time.
+TEST_F(Reading, AProgramRepeatsAlsoWhenItReadsItsOwnPosition) {
+  const std::string same = "G90 F100\nN10 G0 X1\nG1 X2\n#531=#5001\n#532=#4003\nGOTO 10\n";
+  EXPECT_EQ(read(same), Ending::repeats);
+  EXPECT_EQ(reader->repeats_from(), 2u);
+  EXPECT_EQ(read_anywhere(same), Ending::repeats);
+  // Until it is at 3, which a pass with another position could not show.
+  EXPECT_EQ(read_anywhere("G91 F100\nN10 G1 X1\nIF [#5001 LT 3] GOTO 10\nM30\n"), Ending::end);
+  EXPECT_EQ(from.back()[language::X], 3);
+}
+
+TEST_F(Reading, GivesUpAProgramThatReturnsVeryOften) {
+  ReadingOptions options;
+  options.most_returns = 1000;
+  EXPECT_EQ(read("N1 #1=#1+1\nG90 G0 X[#1 MOD 7]\nGOTO 1\n", options), Ending::returns);
+  EXPECT_EQ(reader->repeats_from(), 1u);
+  EXPECT_EQ(read("N1 #1=#1+1\nG90 G0 X[#1 MOD 7]\nIF [#1 LT 1000] GOTO 1\nM30\n", options), Ending::end);
+}
+
 TEST_F(Reading, GivesUpAProgramThatWaitsForATime) {
   ReadingOptions options;
   options.most_idle_lines = 50000;
