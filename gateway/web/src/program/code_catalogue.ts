@@ -113,6 +113,7 @@ export const gCodes: Readonly<Record<string, string>> = {
   "G97": "constant spindle speed: S in 1/min; without S behind G96 the speed that it has",
   "G98": "cycles end at the level they were called at",
   "G99": "cycles end at R",
+  "G120.1": "machining condition P, Q its level; no effect of its own: G5.1 Q chooses the machining mode, and parameters have its data",
   "G159": "as G28.2; a letter alone names an axis",
   "G174": "rigid tapping along a line to X Y Z and back, left-hand thread, at S; lead as G74",
   "G184": "rigid tapping along a line to X Y Z and back, right-hand thread, at S; lead as G84",
