@@ -24,16 +24,22 @@ program_execution::ReadingOptions checking(const CheckOptions& options) {
   return result;
 }
 
+/// A file that is called by its name has no number.
+std::string place_of(std::uint32_t program, const language::FileName& file, const TextName& name) {
+  return file.front() != '\0' ? std::string(file.data()) : name(program);
+}
+
 void print_alarm(const ProgramReader& reader, const TextName& name, std::ostream& out) {
   const auto& alarm = reader.alarm();
-  out << name(alarm.program) << ":" << alarm.line << ":";
+  out << place_of(alarm.program, alarm.file_name, name) << ":" << alarm.line << ":";
   if (alarm.column != 0)
     out << alarm.column << ": " << static_cast<unsigned>(alarm.number) << ": " << alarm.text.data() << "\n";
   else  // without the line that the text begins with
     out << " " << static_cast<unsigned>(alarm.number) << ":"
         << reader.alarm_text().substr(reader.alarm_text().find(' ')) << "\n";
   for (std::size_t i = alarm.calls; i-- > 0;) {
-    out << "  called from " << name(alarm.chain[i].program) << ":" << alarm.chain[i].line << "\n";
+    out << "  called from " << place_of(alarm.chain[i].program, alarm.chain[i].file, name) << ":"
+        << alarm.chain[i].line << "\n";
   }
 }
 

@@ -34,6 +34,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
     state.thread_lead = 0;
+    state.centre_absolute = state.motion_off = false;
   }
   state.needs_position = state.homing = false;
   state.homed = 0;
@@ -152,7 +153,7 @@ Fault BlockExecutor::check_axis_words(bool& taken) const {
   for (const Group group : {Group::one_block, Group::scaling, Group::mirror, Group::rotation}) {
     if (!words.g().has(group)) continue;
     const AxisWords use = words.g().code(group).axis_words;
-    if (use == AxisWords::move || (use == AxisWords::shared && !axes)) continue;
+    if (use == AxisWords::move || use == AxisWords::passed || (use == AxisWords::shared && !axes)) continue;
     at = words.g().offset(group);
     ++takers;
   }
@@ -162,7 +163,9 @@ Fault BlockExecutor::check_axis_words(bool& taken) const {
 
 Fault BlockExecutor::act() {
   const GCodes& g = context_.words.g();
-  const bool one_block = g.has(Group::one_block);
+  const bool linuxcnc = context_.words.linuxcnc();
+  if (linuxcnc) handlers_.linuxcnc_motion.note_codes();
+  const bool one_block = g.has(Group::one_block) && g.code(Group::one_block).axis_words != AxisWords::passed;
   if (handlers_.curve.open()) return handlers_.curve.add_block();
   if (orientation_word() != '\0') return {};
   if (context_.state.parameter_input && !one_block) return handlers_.tables.parameter_line();
@@ -172,6 +175,7 @@ Fault BlockExecutor::act() {
     if (const Fault fault = carry_out(frame_groups | group_bit(Group::one_block))) return fault;
     if (taken || one_block) return {};
   }
+  if (linuxcnc) return handlers_.linuxcnc_motion.move();
   const ModalState& modal = context_.state.modal;
   if (modal.cycle != 80)
     return handlers_.num_tapping.active() ? handlers_.num_tapping.run() : handlers_.cycles.run();

@@ -110,6 +110,8 @@ class BlockExecutor {
                         CommandQueue& out);
 
   const ModalState& modal() const { return context_.state.modal; }
+  /// Beside it what LinuxCNC has set.
+  const BlockState& state() const { return context_.state; }
   /// Where the last move that was read ends, in the frame of its commands. With cutter compensation this is
   /// the contour, not the centre of the tool.
   const AxisValues& position() const { return context_.state.position; }

@@ -5,6 +5,8 @@
 #include "language/curve_motion.hpp"
 #include "language/drilling_cycles.hpp"
 #include "language/frame_codes.hpp"
+#include "language/linuxcnc_modes.hpp"
+#include "language/linuxcnc_motion.hpp"
 #include "language/modal_codes.hpp"
 #include "language/num_tapping.hpp"
 #include "language/path_motion.hpp"
@@ -30,7 +32,9 @@ struct BlockHandlers {
         curve(context),
         cycles(context),
         num_tapping(context),
-        tap_removal(context) {}
+        tap_removal(context),
+        linuxcnc_modes(context),
+        linuxcnc_motion(context, motion, cycles) {}
 
   ModalCodes modal;
   ToolCodes tool;
@@ -44,6 +48,8 @@ struct BlockHandlers {
   DrillingCycles cycles;
   NumTapping num_tapping;
   TapRemoval tap_removal;
+  LinuxcncModes linuxcnc_modes;
+  LinuxcncMotion linuxcnc_motion;
 };
 
 }  // namespace trunnion::language

@@ -74,6 +74,8 @@ class BlockWords {
   bool has_codes() const { return block_->g_count != 0 || block_->m_count != 0; }
   /// As Block::message.
   bool shows_message() const { return block_->message; }
+  /// The block has the codes of LinuxCNC.
+  bool linuxcnc() const { return block_->table == CodeTable::linuxcnc; }
   /// As Block::called.
   std::uint32_t called() const { return block_->called; }
   /// As Block::lead_word and Block::thread.

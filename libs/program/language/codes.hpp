@@ -21,6 +21,8 @@ enum class Group : std::uint8_t {
   spindle_mode,
   plane,
   distance,
+  centre_distance,
+  diameter,
   return_level,
   path_control,
   work_offset,
@@ -35,15 +37,16 @@ enum class Group : std::uint8_t {
   rotation,
   one_block,
 };
-inline constexpr std::size_t group_count = 19;
+inline constexpr std::size_t group_count = 21;
 
 /// Where a code comes from.
 enum class Origin : std::uint8_t {
-  iso,     ///< ISO 6983, and the same on every control of this family
-  fanuc,   ///< as on Fanuc controls
-  hnc,     ///< as on HNC-8 controls
-  num,     ///< as on NUM controls
-  g2core,  ///< as on g2core and TinyG
+  iso,       ///< ISO 6983, and the same on every control of this family
+  fanuc,     ///< as on Fanuc controls
+  hnc,       ///< as on HNC-8 controls
+  num,       ///< as on NUM controls
+  g2core,    ///< as on g2core and TinyG
+  linuxcnc,  ///< as in LinuxCNC
 };
 
 /// What the axis words of a block with the code mean.
@@ -51,6 +54,7 @@ enum class AxisWords : std::uint8_t {
   move,    ///< the code leaves them to the motion of the block
   taken,   ///< the code gives them a meaning of its own, so that the block moves nothing else
   shared,  ///< taken when there are any
+  passed,  ///< as move, and the code is carried out before a motion of the same block
 };
 
 struct BlockHandlers;

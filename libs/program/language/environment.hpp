@@ -69,7 +69,7 @@ struct TravelBreach {
 };
 
 /// How programs are written (parameter 04c959).
-enum class ProgramDialect : std::uint8_t { iso, num };
+enum class ProgramDialect : std::uint8_t { iso, num, linuxcnc };
 
 /// Parameters of the machine and what they become.
 struct ParameterChanges {

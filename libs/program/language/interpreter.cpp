@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "language/iso_dialect.hpp"
+#include "language/linuxcnc_dialect.hpp"
 #include "language/num_dialect.hpp"
 #include "text/utf8.hpp"
 
@@ -47,7 +48,9 @@ std::size_t copy_shown(std::string_view text, std::span<char> out) {
 const Dialect& Interpreter::dialect_of(ProgramDialect name) {
   static const IsoDialect iso;
   static const NumDialect num;
+  static const LinuxcncDialect linuxcnc;
   if (name == ProgramDialect::num) return num;
+  if (name == ProgramDialect::linuxcnc) return linuxcnc;
   return iso;
 }
 
@@ -79,6 +82,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   depth_ = 0;
   found_.fill({});
   next_found_ = 0;
+  named_text_count_ = 0;
   jumps_.clear();
   blocks_ = lines_ = 0;
   message_size_ = 0;
@@ -133,7 +137,7 @@ bool Interpreter::repeats_for_ever() {
   for (std::size_t i = 0; i <= depth_; ++i) {
     const CallLevel& level = levels_[i];
     const TextPosition behind = i == depth_ ? reader_.position() : level.resume;
-    place.levels[i] = {level.source, behind.offset, level.remaining};
+    place.levels[i] = {level.source, behind.offset, level.remaining, level.open.repetitions()};
   }
   const std::uint32_t line = depth_ == 0 ? reader_.position().line : levels_[1].call_line;
   return watch_->returns(place, line, variables_, executor_.position(), executor_.modal());
@@ -150,15 +154,19 @@ Interpreter::State Interpreter::report_line_status(LineReader::Status status, St
 Alarm Interpreter::located(const Fault& fault, std::string_view line) {
   // Seen when the moves behind it are read, but its own.
   if (fault.number == AlarmNumber::compensation_interference) {
-    return make_alarm({fault.number, 0}, {}, levels_[depth_].program, executor_.interference().line,
-                      executor_.fault_detail(fault.number));
+    Alarm alarm = make_alarm({fault.number, 0}, {}, levels_[depth_].program, executor_.interference().line,
+                             executor_.fault_detail(fault.number));
+    alarm.file_name = file_name(alarm.program);
+    return alarm;
   }
   const std::string_view detail = fault.number == AlarmNumber::spindle_without_mark
                                       ? std::string_view(control_.unmarked())
                                       : executor_.fault_detail(fault.number);
   Alarm alarm = make_alarm(fault, line, levels_[depth_].program, line_, detail);
+  alarm.file_name = file_name(alarm.program);
   alarm.calls = static_cast<std::uint8_t>(depth_);
-  for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {levels_[i].program, levels_[i + 1].call_line};
+  for (std::size_t i = 0; i < depth_; ++i)
+    alarm.chain[i] = {levels_[i].program, levels_[i + 1].call_line, file_name(levels_[i].program)};
   return alarm;
 }
 
@@ -196,13 +204,18 @@ Interpreter::State Interpreter::run_line(Step& step) {
     }
     return execute(line);
   }
-  if (status == LineReader::Status::end) return end_of_text();
+  if (status == LineReader::Status::end) {
+    // A single line is no file that could be cut off, but one of manual data input.
+    const bool whole = depth_ != 0 || position_.line <= 2 || !rules_.text_needs_end;
+    return whole ? end_of_text() : fail({AlarmNumber::linuxcnc_end_missing, 0}, {});
+  }
   return report_line_status(status, step);
 }
 
 Interpreter::State Interpreter::execute(std::string_view line) {
   variables_.begin_line();
   control_.begin_line();
+  control_.set_place(line_, depth_);
   const State state = execute_block(line);
   if (!control_.needs_value()) control_.end_line();
   return state;
@@ -213,7 +226,8 @@ Interpreter::State Interpreter::execute_block(std::string_view line) {
   if (const Fault fault = dialect_->read_block(line, options_.block_skip, variables_, block_))
     return fail(fault, line);
   if (block_.skipped) return State::running;
-  if (block_.head != Head::none && level.started) return end_of_text();
+  const bool goes_on = !rules_.heads_end_text && depth_ == 0 && block_.head == Head::program;
+  if (block_.head != Head::none && level.started && !goes_on) return end_of_text();
   if (block_.head == Head::program) {
     level.started = true;
     control_.set_program_number(block_.program_number);
@@ -234,7 +248,11 @@ Fault Interpreter::carry_out_requests() { return control_.carry_out(levels_[dept
 Interpreter::State Interpreter::execute_words(std::string_view line) {
   if (const Fault fault = carry_out_requests()) return fail(fault, line);
   if (rules_.text_ends_subprograms && depth_ != 0 && !block_.ends_program) return_at_end(block_);
-  if (block_.message) message_size_ = copy_shown(line.substr(block_.message_at), message_);
+  if (block_.message) {
+    message_size_ = copy_shown(block_.text_size != 0 ? std::string_view(block_.text.data(), block_.text_size)
+                                                     : line.substr(block_.message_at),
+                               message_);
+  }
   Call call;
   if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);
   const auto* const modal = modal_calls_.active();
@@ -257,6 +275,7 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
     case Flow::Kind::end:
       return State::done;
     case Flow::Kind::go_back:
+      if (levels_[depth_].sub != 0) return fail({AlarmNumber::linuxcnc_sub_outside, flow.offset}, line);
       return return_from_subprogram(flow, line);
     case Flow::Kind::call:
       break;
@@ -264,7 +283,7 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   Call subprogram;
   subprogram.number = flow.subprogram;
   subprogram.repetitions = flow.repetitions;
-  subprogram.counted = flow.counted;
+  subprogram.counted = flow.counted || !rules_.number_counts;
   subprogram.offset = flow.offset;
   subprogram.program_offset = block_.offset('P');
   return call(subprogram, line);
@@ -298,6 +317,7 @@ Interpreter::State Interpreter::end_of_text() {
     return fail({AlarmNumber::begin_without_end, 0}, {});
   }
   if (depth_ != 0 && rules_.text_ends_subprograms) return return_from_subprogram({}, {});
+  if (levels_[depth_].sub != 0) return fail({AlarmNumber::linuxcnc_sub_nested, 0}, {});
   if (depth_ != 0) return fail({AlarmNumber::subprogram_without_end, 0}, {});
   if (const Fault fault = executor_.end_program(0, levels_[0].program, line_, queue_)) return fail(fault, {});
   return State::done;

@@ -137,7 +137,10 @@ class Interpreter {
   const BlockExecutor& executor() const { return executor_; }
 
   static const Dialect& dialect_of(ProgramDialect name);
-  static constexpr std::size_t longest_message = 96;
+  static constexpr std::size_t longest_message = longest_text;
+
+  /// Of a text from named_texts on that this program has called; else empty.
+  FileName file_name(std::uint32_t program) const;
 
  private:
   struct CallLevel {
@@ -150,6 +153,8 @@ class Interpreter {
     bool started = false;         // a head or a word has been read
     bool own_variables = false;
     bool modal = false;           // called by G66
+    std::uint64_t sub = 0;        // the subroutine, 0: no O word has called it
+    bool defined = false;         // its definition was read
     std::size_t modal_above = 0;  // of ModalCalls::enter()
     OpenStructures open;
   };
@@ -162,21 +167,28 @@ class Interpreter {
     TextSource* source = nullptr;
     std::uint32_t program = 0;
     TextPosition top;
+    std::uint64_t name = 0;  // of a subroutine
   };
   enum class State : std::uint8_t { running, searching, done, failed };
   enum class Purpose : std::uint8_t {
     program,  ///< the head of a program
     label,    ///< a sequence number
     branch,   ///< ELSEIF, ELSE or ENDIF of the innermost IF
-    end,      ///< the end of the innermost structure
+    end,      ///< the line behind the end of a structure
+    last,     ///< the end of a structure
+    sub,      ///< the definition of a subroutine
+    sub_end,  ///< the line behind the end of one
   };
   struct Search {
     Purpose purpose = Purpose::program;
     TextSource* source = nullptr;
-    std::uint32_t wanted = 0;
-    TextPosition from;      // of the line that jumps
-    bool from_top = false;  // second half of the search for a label
-    std::size_t depth = 0;  // structures open at the jump
+    std::uint64_t wanted = 0;
+    TextPosition from;          // of the line that jumps
+    bool from_top = false;      // second half of the search for a label
+    bool begun = false;         // something before the line is no blank
+    bool in_file = false;       // the file of a subroutine
+    std::uint32_t program = 0;  // of the text in which a subroutine is looked for
+    std::size_t depth = 0;      // structures open where the search must arrive
     OpenStructures open;
   };
 
@@ -199,17 +211,30 @@ class Interpreter {
   State call_cycle(std::string_view line);
   State branch(bool condition, std::string_view line);
   State execute_rest(std::string_view line);
-  State jump(Purpose purpose, std::uint32_t wanted, TextPosition from, const Fault& in_vain,
-             std::string_view line);
-  State search(Purpose purpose, std::uint32_t wanted, TextPosition from);
+  static constexpr std::size_t innermost = static_cast<std::size_t>(-1);
+  /// `depth` counts the structure that the jump looks for the parts of.
+  State jump(Purpose purpose, std::uint64_t wanted, TextPosition from, const Fault& in_vain,
+             std::string_view line, std::size_t depth = innermost);
+  State search(Purpose purpose, std::uint64_t wanted, TextPosition from, std::size_t depth = innermost);
   State arrive(const JumpCache::Target& target);
   State search_line(Step& step);
   State label_found(TextPosition position);
-  bool structure_found(Statement statement) const;
+  bool structure_found(Statement statement, std::uint64_t named) const;
   State search_ended();
-  static std::uint64_t key(Purpose purpose, std::uint32_t wanted) {
-    return (std::uint64_t{wanted} << 2) | static_cast<std::uint64_t>(purpose);
+  static std::uint64_t key(Purpose purpose, std::uint64_t wanted) {
+    return (wanted << 3) | static_cast<std::uint64_t>(purpose);
   }
+  State repeat(std::string_view line);
+
+  // O words of LinuxCNC (interpreter_subs.cpp).
+  State call_sub(std::string_view line);
+  State begin_sub(std::string_view line);
+  State return_from_sub(std::string_view line);
+  State leave_loop(std::string_view line);
+  State search_sub(const Outline& outline, TextPosition position, std::string_view line);
+  State search_sub_elsewhere();
+  /// The file with the name of the called subroutine; null when there is none.
+  TextSource* find_file();
 
   State call_macro(Call& call, std::string_view line);
   State call(const Call& call, std::string_view line);
@@ -256,6 +281,10 @@ class Interpreter {
   TextPosition after_call_;
   std::uint32_t call_line_ = 0;
   ModalCalls modal_calls_;
+  std::array<char, 64> file_{};  // of the called subroutine
+  std::size_t file_size_ = 0;
+  std::array<FileName, 32> named_texts_{};
+  std::size_t named_text_count_ = 0;
   std::array<Found, 16> found_{};
   std::size_t next_found_ = 0;  // the entry the next search replaces
 };

@@ -49,15 +49,18 @@ Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
   const bool cycle = call.kind == CallKind::cycle;
   TextSource* const caller = levels_[depth_].source;
   for (const Found& known : found_) {
-    if (known.caller == caller && known.number == call.number && known.cycle == cycle &&
-        (known.repetitions == 0 || !call.counted))
+    if (known.caller == caller && known.number == call.number && known.name == call.name &&
+        known.cycle == cycle && (known.repetitions == 0 || !call.counted))
       return enter(known);
   }
   not_found_ = located({AlarmNumber::subprogram_missing, call.program_offset}, line);
   if (call.number == rules_.homing_program)
     not_allowed_ = located({AlarmNumber::num_homing_axis, call.program_offset}, line);
-  search_.purpose = Purpose::program;
-  search_.wanted = call.number;
+  const bool subroutine = call.kind == CallKind::subroutine;
+  search_.purpose = subroutine ? Purpose::sub : Purpose::program;
+  search_.wanted = subroutine ? call.name : call.number;
+  search_.begun = search_.in_file = false;
+  search_.program = levels_[depth_].program;
   search_.source = cycle ? environment_.subprogram(ProgramName(cycle_file).view()) : caller;
   if (search_.source == nullptr) return fail(not_found_);
   reader_.seek(*search_.source, {});
@@ -68,8 +71,14 @@ Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program,
   Found& entry = found_[next_found_];
   next_found_ = (next_found_ + 1) % found_.size();
   const std::uint32_t repetitions = call_.number == called_ ? 0 : call_.repetitions;
-  entry = {
-      levels_[depth_].source, called_, repetitions, call_.kind == CallKind::cycle, &source, program, top};
+  entry = {levels_[depth_].source,
+           called_,
+           repetitions,
+           call_.kind == CallKind::cycle,
+           &source,
+           program,
+           top,
+           call_.name};
   return enter(entry);
 }
 
@@ -84,8 +93,11 @@ Interpreter::State Interpreter::enter(const Found& target) {
   level.started = false;
   level.own_variables = call_.kind != CallKind::subprogram;
   level.modal = call_.kind == CallKind::modal_macro || call_.kind == CallKind::block_macro;
+  level.sub = call_.name;
+  level.defined = false;
   level.open.clear();
   if (level.own_variables) variables_.enter(arguments_);
+  variables_.names().enter();
   if (level.modal) level.modal_above = modal_calls_.enter();
   reader_.seek(*level.source, level.top);
   return State::running;
@@ -126,10 +138,12 @@ Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::st
     level.started = false;
     level.open.clear();
     if (level.own_variables) variables_.repeat();
+    if (depth_ != 0) variables_.names().again();
     reader_.seek(*level.source, level.top);
     return State::running;
   }
   if (level.own_variables) variables_.leave();
+  variables_.names().leave();
   if (level.modal) modal_calls_.leave(level.modal_above);
   // The alarm of a label that is not there belongs to the M99 that names it.
   if (flow.to_label) {

@@ -62,7 +62,9 @@ Fault ModalCodes::feed_word() {
   const double feed = words_.value('F');
   if (!(feed > 0)) return {AlarmNumber::feed_not_positive, words_.offset('F')};
   const bool time = state_.modal.feed_mode == FeedMode::inverse_time;
-  state_.modal.feed = time ? feed : feed * words_.length_scale();
+  // LinuxCNC takes F before the units of its block.
+  const bool metric = words_.linuxcnc() ? state_.at_block_begin().modal.metric : state_.modal.metric;
+  state_.modal.feed = time || metric ? feed : feed * 25.4;
   return {};
 }
 

@@ -43,6 +43,8 @@ struct BlockState {
   bool needs_position = false;    ///< a skip move (G31) or a search for references (G28.2) was given out
   bool homing = false;            ///< it is the search
   std::uint16_t homed = 0;        ///< axes named by the searches so far, bit a for Axis a
+  bool centre_absolute = false;   ///< G90.1 of LinuxCNC
+  bool motion_off = false;        ///< G80 of LinuxCNC: axis words need a code
   double thread_lead = 0;         ///< F of G33 and G34, mm per revolution; 0 = none yet
   SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
   std::uint8_t settings_place = 0;

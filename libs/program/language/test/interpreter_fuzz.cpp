@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes, in chunks of any size, read in both dialects: no crash, finite commands, and the same stream for
+// Any bytes, in chunks of any size, read in every dialect: no crash, finite commands, and the same stream for
 // every chunk size.
 #include <cmath>
 #include <cstdint>
@@ -72,6 +72,9 @@ void interpret(const std::uint8_t* data, std::size_t size, ProgramDialect dialec
   machine.axis_mask = 0b000111111;
   machine.programs["O0009"] = std::make_unique<StringSource>("G91 X1\n#100=#100+1\nM99\n");
   machine.programs["O0009.1"] = std::make_unique<StringSource>("G91 G1 F100 XL0\nL100=L100+1 G77 H8\n");
+  machine.programs["O0010"] = std::make_unique<StringSource>("o10 sub\nG91 X#1\no10 endsub [#1+1]\n");
+  machine.programs["sub"] =
+      std::make_unique<StringSource>("o<sub> sub\n#<a>=#1\no10 call [#<a>]\no<sub> endsub\n");
   machine.programs["USERDEF.CYC"] = std::make_unique<StringSource>(
       "%1007\nWHILE #1 LT #0\n#1=#1+1\nX#1\nENDW\nM99\n%1010\nIF AR[#7] EQ 0\nM99 P5\nENDIF\nG1007 "
       "A[#7]\nM99\n");
@@ -119,5 +122,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   test::interpret(data, size, ProgramDialect::iso);
   test::interpret(data, size, ProgramDialect::num);
+  test::interpret(data, size, ProgramDialect::linuxcnc);
   return 0;
 }
