@@ -169,6 +169,7 @@ struct DialectRules {
   bool heads_end_text = true;          ///< a second head ends the started program
   bool text_needs_end = false;         ///< it ends with M2, M30, M99 or %, and not with its text
   bool number_counts = true;           ///< digits before the last four of a called number may be repetitions
+  bool returns_to_r = false;           ///< a program begins with G99
 };
 
 /// How one dialect writes blocks. A reader hands over the codes of `g_codes` and `m_codes`, under whatever

@@ -54,6 +54,9 @@ class BlockExecutor {
   /// `modal` must be what modal() was at the end of the line before.
   void start(const AxisValues& position, const ModalState& modal, Beginning beginning = Beginning::program);
 
+  /// G99, before the first block.
+  void return_to_r() { context_.state.modal.return_to_initial = false; }
+
   /// Appends the block's commands to `out`, which must be empty; sequence numbers count from start().
   Fault execute(const Block& block, std::uint32_t program, std::uint32_t line, CommandQueue& out, Flow& flow);
 

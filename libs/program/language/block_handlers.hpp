@@ -5,6 +5,7 @@
 #include "language/curve_motion.hpp"
 #include "language/drilling_cycles.hpp"
 #include "language/frame_codes.hpp"
+#include "language/linuxcnc_cycles.hpp"
 #include "language/linuxcnc_modes.hpp"
 #include "language/linuxcnc_motion.hpp"
 #include "language/modal_codes.hpp"
@@ -34,7 +35,8 @@ struct BlockHandlers {
         num_tapping(context),
         tap_removal(context),
         linuxcnc_modes(context),
-        linuxcnc_motion(context, motion, cycles) {}
+        linuxcnc_cycles(context, cycles),
+        linuxcnc_motion(context, motion, linuxcnc_cycles) {}
 
   ModalCodes modal;
   ToolCodes tool;
@@ -49,6 +51,7 @@ struct BlockHandlers {
   NumTapping num_tapping;
   TapRemoval tap_removal;
   LinuxcncModes linuxcnc_modes;
+  LinuxcncCycles linuxcnc_cycles;
   LinuxcncMotion linuxcnc_motion;
 };
 

@@ -35,6 +35,7 @@ struct HoleParameters {
   double retract = 0;         ///< mm, between pecks of G73 and tapping
   double clearance = 0;       ///< mm above the last depth (G83)
   std::uint32_t restart = 3;  ///< M code that starts the spindle again: 3 or 4
+  bool linuxcnc = false;      ///< G89 goes out at feed all the way, tapping dwells at the bottom only
 };
 
 /// Gives the steps of a hole one after the other, the tool being above it. Allocates nothing, however many

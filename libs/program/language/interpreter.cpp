@@ -69,6 +69,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   rules_ = dialect_->rules();
   executor_.start(position, initial, beginning);
   if (beginning == Beginning::program) {
+    if (rules_.returns_to_r) executor_.return_to_r();
     control_.start();
     modal_calls_.clear();
   }

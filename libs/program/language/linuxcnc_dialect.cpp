@@ -14,6 +14,7 @@ DialectRules LinuxcncDialect::rules() const {
   rules.heads_end_text = false;
   rules.text_needs_end = true;
   rules.number_counts = false;
+  rules.returns_to_r = true;
   return rules;
 }
 

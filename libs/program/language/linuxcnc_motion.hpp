@@ -3,14 +3,14 @@
 #pragma once
 
 #include "language/block_context.hpp"
-#include "language/drilling_cycles.hpp"
+#include "language/linuxcnc_cycles.hpp"
 #include "language/path_motion.hpp"
 
 namespace trunnion::language {
 
 class LinuxcncMotion : private BlockHandler {
  public:
-  LinuxcncMotion(BlockContext& context, PathMotion& motion, DrillingCycles& cycles)
+  LinuxcncMotion(BlockContext& context, PathMotion& motion, LinuxcncCycles& cycles)
       : BlockHandler(context), motion_(motion), cycles_(cycles) {}
 
   /// G80 leaves no motion code, another one ends that.
@@ -20,7 +20,7 @@ class LinuxcncMotion : private BlockHandler {
 
  private:
   PathMotion& motion_;
-  DrillingCycles& cycles_;
+  LinuxcncCycles& cycles_;
 };
 
 }  // namespace trunnion::language

@@ -13,9 +13,19 @@
 
 namespace trunnion::language {
 
+/// Words of a canned cycle as LinuxCNC keeps them, mm and seconds; in G91 they are increments.
+struct LinuxcncCycleWords {
+  double initial = 0;  ///< level before the first cycle, program coordinates
+  double depth = 0;
+  double retract = 0;
+  double peck = 0;
+  double dwell = 0;
+};
+
 /// The words of a canned cycle, which stay until the next cycle code.
 struct CycleWords {
   HoleParameters hole;
+  LinuxcncCycleWords linuxcnc;
   bool has_depth = false;
   bool has_r = false;
   std::array<double, 2> shift{};   ///< of G76 and G87, mm in the plane
