@@ -30,6 +30,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.modal.cycle = 80;
     state.modal.polar = state.modal.scaled = state.modal.mirrored = state.modal.rotated = false;
     settings.frame = ProgramFrame{};
+    settings.linuxcnc = {};
     settings.intermediate.reset();
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
@@ -213,6 +214,7 @@ Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
     command.has_value = word != '\0';
   } else if (code.action == MAction::program_end) {
     if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, at};
+    if (const Fault fault = handlers_.linuxcnc_frames.check_end(at)) return fault;
     if (const Fault fault = context_.output.push_end(code.number)) return fault;
   }
   return {};
@@ -342,6 +344,7 @@ Fault BlockExecutor::end_program(std::uint32_t number, std::uint32_t program, st
   // Behind a line of manual data input the next one may hold the swing.
   const bool more = number == 0 && beginning_ == Beginning::line;
   if (context_.state.swing_due && !more) return {AlarmNumber::tilt_swing_missing, 0};
+  if (const Fault fault = handlers_.linuxcnc_frames.check_end(0)) return fault;
   if (const Fault fault = context_.output.push_end(number)) return fault;
   const Fault fault = context_.output.settle();
   if (fault) context_.output.discard();

@@ -115,6 +115,7 @@ class BlockExecutor {
   const ModalState& modal() const { return context_.state.modal; }
   /// Beside it what LinuxCNC has set.
   const BlockState& state() const { return context_.state; }
+  const LinuxcncFrame& linuxcnc_frame() const { return context_.state.settings().linuxcnc; }
   /// Where the last move that was read ends, in the frame of its commands. With cutter compensation this is
   /// the contour, not the centre of the tool.
   const AxisValues& position() const { return context_.state.position; }

@@ -6,8 +6,10 @@
 #include "language/drilling_cycles.hpp"
 #include "language/frame_codes.hpp"
 #include "language/linuxcnc_cycles.hpp"
+#include "language/linuxcnc_frames.hpp"
 #include "language/linuxcnc_modes.hpp"
 #include "language/linuxcnc_motion.hpp"
+#include "language/linuxcnc_tools.hpp"
 #include "language/modal_codes.hpp"
 #include "language/num_tapping.hpp"
 #include "language/path_motion.hpp"
@@ -35,6 +37,8 @@ struct BlockHandlers {
         num_tapping(context),
         tap_removal(context),
         linuxcnc_modes(context),
+        linuxcnc_frames(context, frames, tables),
+        linuxcnc_tools(context, tool, tables, linuxcnc_frames),
         linuxcnc_cycles(context, cycles),
         linuxcnc_motion(context, motion, linuxcnc_cycles) {}
 
@@ -51,6 +55,8 @@ struct BlockHandlers {
   NumTapping num_tapping;
   TapRemoval tap_removal;
   LinuxcncModes linuxcnc_modes;
+  LinuxcncFrames linuxcnc_frames;
+  LinuxcncTools linuxcnc_tools;
   LinuxcncCycles linuxcnc_cycles;
   LinuxcncMotion linuxcnc_motion;
 };

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Comments that are orders: (MSG,..), (DEBUG,..), (PRINT,..), (ABORT,..) and those of files.
+#include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "language/linuxcnc_reader.hpp"
@@ -109,7 +111,9 @@ void LinuxcncReader::expand(std::string_view& text, int decimals) {
   }
 }
 
+// Rounded to zero, a number has no sign.
 void LinuxcncReader::append(double value, int decimals) {
+  if (std::abs(value) < 0.5 * std::pow(10, -decimals)) value = 0;
   std::array<char, 48> digits{};
   const int size = std::snprintf(digits.data(), digits.size(), "%.*f", decimals, value);
   for (int i = 0; i < size && i < static_cast<int>(digits.size()) - 1; ++i)

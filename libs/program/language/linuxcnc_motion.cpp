@@ -11,10 +11,13 @@ void LinuxcncMotion::note_codes() {
 
 Fault LinuxcncMotion::move() {
   const ModalState& modal = state_.modal;
-  if (state_.motion_off) {
-    const bool axes = (words_.letters() & axis_bits) != 0;
+  const GCodes& g = words_.g();
+  const bool axes = (words_.letters() & axis_bits) != 0;
+  // G43.1 and G43.2 have taken them.
+  if (axes && g.has(Group::tool_length) && g.code(Group::tool_length).axis_words != AxisWords::move)
+    return g.has(Group::motion) ? Fault{AlarmNumber::codes_compete, g.offset(Group::motion)} : Fault{};
+  if (state_.motion_off)
     return axes ? Fault{AlarmNumber::linuxcnc_axis_words, words_.offset_of_any(axis_bits)} : Fault{};
-  }
   return modal.cycle != 80 ? cycles_.run() : motion_.move();
 }
 

@@ -44,7 +44,6 @@ AlarmNumber ControlVariables::read_linuxcnc(LinuxcncValue which, std::uint32_t i
 }
 
 AlarmNumber ControlVariables::linuxcnc_place(LinuxcncValue which, std::uint32_t axis, double& value) const {
-  const ProgramFrame& frame = executor_.frame();
   switch (which) {
     case LinuxcncValue::machine_position:
       value = in_program_units(axis, executor_.machine_position()[axis]);
@@ -56,7 +55,7 @@ AlarmNumber ControlVariables::linuxcnc_place(LinuxcncValue which, std::uint32_t 
       value = in_program_units(axis, executor_.program_position()[axis]);
       break;
     case LinuxcncValue::shift:
-      value = frame.local()[axis] + frame.shift()[axis];
+      value = executor_.linuxcnc_frame().shift[axis];
       break;
     default: {
       const std::uint8_t number = which == LinuxcncValue::reference ? g28 : g30;
@@ -70,11 +69,11 @@ AlarmNumber ControlVariables::linuxcnc_place(LinuxcncValue which, std::uint32_t 
 }
 
 AlarmNumber ControlVariables::linuxcnc_offset(std::uint32_t index, double& value) const {
-  const std::uint32_t axis = index % numbers_of_system;
-  if (axis == rotation_of_system) return AlarmNumber::none;
-  if (axis > rotation_of_system || index / numbers_of_system >= coordinate_systems)
-    return AlarmNumber::variable_unknown;
-  value = executor_.tables().work_offset(static_cast<std::uint8_t>(index / numbers_of_system))[axis];
+  const std::uint32_t axis = index % numbers_of_system, system = index / numbers_of_system;
+  if (axis > rotation_of_system || system >= coordinate_systems) return AlarmNumber::variable_unknown;
+  value = axis == rotation_of_system
+              ? executor_.linuxcnc_frame().rotations[system]
+              : executor_.tables().work_offset(static_cast<std::uint8_t>(system))[axis];
   return AlarmNumber::none;
 }
 
@@ -99,11 +98,9 @@ AlarmNumber ControlVariables::linuxcnc_mode(LinuxcncValue which, double& value) 
   const ModalState& modal = executor_.modal();
   const bool surface = modal.spindle_mode == SpindleMode::surface;
   switch (which) {
-    case LinuxcncValue::shift_active: {
-      const ProgramFrame& frame = executor_.frame();
-      value = flag_value(frame.local() != AxisValues{} || frame.shift() != AxisValues{});
+    case LinuxcncValue::shift_active:
+      value = flag_value(executor_.linuxcnc_frame().shifted);
       break;
-    }
     case LinuxcncValue::coordinate_system:
       value = modal.work_offset + 1;
       break;

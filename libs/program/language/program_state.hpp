@@ -22,6 +22,13 @@ struct LinuxcncCycleWords {
   double dwell = 0;
 };
 
+/// What LinuxCNC adds to a coordinate system.
+struct LinuxcncFrame {
+  AxisValues shift{};                 ///< of G52 and G92, mm and degrees, in axes that the rotation turns
+  bool shifted = false;               ///< it acts: G92.2 only suspends it
+  std::array<double, 9> rotations{};  ///< of G54 .. G59.3 about Z, degrees
+};
+
 /// The words of a canned cycle, which stay until the next cycle code.
 struct CycleWords {
   HoleParameters hole;
@@ -40,6 +47,7 @@ struct ProgramSettings {
   std::array<double, 2> polar_centre{};
   std::optional<AxisValues> intermediate;  ///< program coordinates, of the last G28 or G30
   CycleWords cycle;
+  LinuxcncFrame linuxcnc;
 };
 
 /// Everything a block can change and a faulty one must not have changed: what is copied at the beginning of

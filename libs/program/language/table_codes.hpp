@@ -22,12 +22,17 @@ class TableCodes : private BlockHandler {
   Fault write_work_offset(std::uint8_t index, std::size_t axis, double value);
   Fault write_tool(Table table, std::uint16_t number, double value);
 
+  /// The same for a block that means something else by its words.
+  void store_work_offset(std::uint8_t index, const AxisValues& values);
+  Fault set_tool(Table table, std::uint16_t number, double value, std::uint16_t at) {
+    return store_tool(table, number, value, false, at);
+  }
+
  private:
   Fault change_work_offset(std::uint16_t at, std::uint32_t l);
   Fault change_tool(std::uint16_t at, std::uint32_t l);
   Fault define_tool(std::uint16_t at);
   Fault change_parameter(char number_letter);
-  void store_work_offset(std::uint8_t index, const AxisValues& values);
   Fault store_tool(Table table, std::uint16_t number, double value, bool adds, std::uint16_t at);
 
   OffsetTables& tables_;
