@@ -35,9 +35,10 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
     state.thread_lead = 0;
-    state.centre_absolute = state.motion_off = false;
+    state.centre_absolute = false;
+    state.own_motion = 0;
   }
-  state.needs_position = state.homing = false;
+  state.needs_position = state.homing = state.needs_contact = false;
   state.homed = 0;
   context_.tables.load(context_.environment);
   settings.frame.set_work_offset(context_.tables.work_offset(state.modal.work_offset));
@@ -50,6 +51,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
   handlers_.motion.start();
   handlers_.cycles.reset();
   handlers_.curve.reset();
+  handlers_.linuxcnc_curves.reset();
   state.locate(position);
 }
 
@@ -131,6 +133,12 @@ Fault BlockExecutor::resume(CommandQueue& out) {
     case Activity::curve:
       fault = handlers_.curve.next_chord();
       break;
+    case Activity::spline:
+      fault = handlers_.linuxcnc_curves.next_chord();
+      break;
+    case Activity::passes:
+      fault = handlers_.linuxcnc_threads.next_pass();
+      break;
   }
   if (fault || context_.activity != Activity::none) return fault;
   if (!m_codes_due_) return context_.output.drain();
@@ -142,6 +150,7 @@ Fault BlockExecutor::resume(CommandQueue& out) {
 Fault BlockExecutor::check_context() const {
   if (const Fault fault = handlers_.planes.check()) return fault;
   if (const Fault fault = handlers_.curve.check()) return fault;
+  if (const Fault fault = handlers_.linuxcnc_curves.check()) return fault;
   return handlers_.tables.check();
 }
 
@@ -214,6 +223,7 @@ Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
     command.has_value = word != '\0';
   } else if (code.action == MAction::program_end) {
     if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, at};
+    if (const Fault fault = handlers_.linuxcnc_curves.check_end(at)) return fault;
     if (const Fault fault = handlers_.linuxcnc_frames.check_end(at)) return fault;
     if (const Fault fault = context_.output.push_end(code.number)) return fault;
   }
@@ -318,7 +328,7 @@ Fault BlockExecutor::set_call(Flow& flow) {
 
 void BlockExecutor::set_position(const AxisValues& position) {
   if (context_.output.compensating()) context_.output.drop_compensation();
-  context_.state.needs_position = context_.state.homing = false;
+  context_.state.needs_position = context_.state.homing = context_.state.needs_contact = false;
   context_.state.locate(position);
 }
 
@@ -344,6 +354,7 @@ Fault BlockExecutor::end_program(std::uint32_t number, std::uint32_t program, st
   // Behind a line of manual data input the next one may hold the swing.
   const bool more = number == 0 && beginning_ == Beginning::line;
   if (context_.state.swing_due && !more) return {AlarmNumber::tilt_swing_missing, 0};
+  if (const Fault fault = handlers_.linuxcnc_curves.check_end(0)) return fault;
   if (const Fault fault = handlers_.linuxcnc_frames.check_end(0)) return fault;
   if (const Fault fault = context_.output.push_end(number)) return fault;
   const Fault fault = context_.output.settle();

@@ -5,10 +5,12 @@
 #include "language/curve_motion.hpp"
 #include "language/drilling_cycles.hpp"
 #include "language/frame_codes.hpp"
+#include "language/linuxcnc_curves.hpp"
 #include "language/linuxcnc_cycles.hpp"
 #include "language/linuxcnc_frames.hpp"
 #include "language/linuxcnc_modes.hpp"
 #include "language/linuxcnc_motion.hpp"
+#include "language/linuxcnc_threads.hpp"
 #include "language/linuxcnc_tools.hpp"
 #include "language/modal_codes.hpp"
 #include "language/num_tapping.hpp"
@@ -40,7 +42,9 @@ struct BlockHandlers {
         linuxcnc_frames(context, frames, tables),
         linuxcnc_tools(context, tool, tables, linuxcnc_frames),
         linuxcnc_cycles(context, cycles),
-        linuxcnc_motion(context, motion, linuxcnc_cycles) {}
+        linuxcnc_threads(context, motion),
+        linuxcnc_curves(context),
+        linuxcnc_motion(context, motion, positioning, linuxcnc_cycles, linuxcnc_threads, linuxcnc_curves) {}
 
   ModalCodes modal;
   ToolCodes tool;
@@ -58,6 +62,8 @@ struct BlockHandlers {
   LinuxcncFrames linuxcnc_frames;
   LinuxcncTools linuxcnc_tools;
   LinuxcncCycles linuxcnc_cycles;
+  LinuxcncThreads linuxcnc_threads;
+  LinuxcncCurves linuxcnc_curves;
   LinuxcncMotion linuxcnc_motion;
 };
 

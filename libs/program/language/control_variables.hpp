@@ -35,6 +35,8 @@ class ControlVariables final : public SystemVariables {
   void set_place(std::uint32_t line, std::size_t calls) { line_ = line, calls_ = calls; }
   /// Where G31 stopped, workpiece, mm and degrees.
   void set_skip_position(const AxisValues& position) { skip_position_ = position; }
+  /// It stopped at a contact (#5070 of LinuxCNC).
+  void set_skip_touched(bool touched) { skip_touched_ = touched; }
   /// As Interpreter::set_homed().
   void set_homed(std::optional<std::uint16_t> axes) { homed_ = axes; }
   void set_modal_macro(bool active) { modal_macro_ = active; }
@@ -100,6 +102,7 @@ class ControlVariables final : public SystemVariables {
   bool modal_macro_ = false, needs_answer_ = false;
   double answer_ = 0;  // to the newest call of a cycle
   AxisValues skip_position_{};
+  bool skip_touched_ = false;
   std::optional<std::uint16_t> homed_ = 0x1ff;  // at the start, bit a for Axis a
   struct Request {
     VariableKind kind = VariableKind::message;

@@ -2,6 +2,7 @@
 #include "language/interpreter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <string_view>
 
@@ -76,6 +77,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   control_.forget_call();
   variables_.start(variables);
   control_.set_skip_position(variables_.skip_position());
+  if (beginning == Beginning::program) control_.set_skip_touched(false);
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i)
     cycle_m_codes_[i] = rules_.cycle_m_codes ? environment_.cycle_m_code(i) : std::uint16_t{0};
   queue_.clear();
@@ -291,12 +293,21 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
 }
 
 void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {
-  if (executor_.needs_position() && !executor_.homing()) {
+  const bool skipped = executor_.needs_position() && !executor_.homing();
+  const bool must_touch = skipped && executor_.state().needs_contact && !options_.assume_contact;
+  bool contact = options_.assume_contact;
+  if (skipped) {
+    for (std::size_t axis = 0; axis < axis_count; ++axis)
+      contact |= std::abs(touched[axis] - executor_.position()[axis]) > no_distance;
     executor_.set_position(touched);
-    variables_.set_skip_position(executor_.workpiece_position());
+    // LinuxCNC means what a word would give.
+    const bool linuxcnc = block_.table == CodeTable::linuxcnc;
+    variables_.set_skip_position(linuxcnc ? executor_.program_position() : executor_.workpiece_position());
     control_.set_skip_position(variables_.skip_position());
+    control_.set_skip_touched(contact);
   }
   executor_.set_position(position);
+  if (must_touch && !contact) state_ = fail({AlarmNumber::linuxcnc_no_contact, 0}, {});
 }
 
 void Interpreter::answer(double value) {

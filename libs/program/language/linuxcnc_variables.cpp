@@ -108,6 +108,9 @@ AlarmNumber ControlVariables::linuxcnc_mode(LinuxcncValue which, double& value) 
       value = modal.work_offset < lettered_offsets ? 540 + 10 * modal.work_offset
                                                    : 585 + modal.work_offset;  // 591 of the seventh
       break;
+    case LinuxcncValue::skip_touched:
+      value = flag_value(skip_touched_);
+      break;
     case LinuxcncValue::line:
       value = line_;
       break;
@@ -115,7 +118,8 @@ AlarmNumber ControlVariables::linuxcnc_mode(LinuxcncValue which, double& value) 
       value = static_cast<double>(calls_);
       break;
     case LinuxcncValue::motion_mode:
-      value = 10 * (executor_.state().motion_off ? 80 : modal.cycle != 80 ? modal.cycle : modal.motion);
+      value = executor_.state().own_motion;
+      if (value == 0) value = 10 * (modal.cycle != 80 ? modal.cycle : modal.motion);
       break;
     case LinuxcncValue::plane:
       value = modal.plane == Plane::xy ? 170 : modal.plane == Plane::zx ? 180 : 190;

@@ -33,6 +33,8 @@ Fault ModalCodes::set_feed_mode(std::uint16_t, FeedMode mode) {
 
 // A code that gives the axis words a meaning of its own, or a cycle, moves at feed.
 bool ModalCodes::takes_lead() const {
+  // Its threads have their lead in K.
+  if (words_.linuxcnc()) return false;
   const GCodes& g = words_.g();
   if (g.has(Group::one_block) && g.code(Group::one_block).axis_words == AxisWords::taken) return false;
   if (g.has(Group::motion))

@@ -113,6 +113,16 @@ Fault PathMotion::cut_thread() {
   return output_.move_straight(move, target);
 }
 
+Fault PathMotion::thread_to(std::uint16_t at, double lead, const AxisValues& target, bool begins) {
+  state_.thread_lead = lead;
+  if (const Fault fault = check_thread(at)) return fault;
+  StraightMove move{CommandKind::thread};
+  move.value = lead;
+  move.number = begins ? 1 : 0;
+  if (const Fault fault = check_lead(at, state_.command_from_program(target), move)) return fault;
+  return output_.move_straight(move, target);
+}
+
 // On the pitch line the spindle has the taught angle where the axis with the lead is at the taught place.
 Fault PathMotion::resume_thread(const AxisValues& target, double& start_angle) {
   const AxisValues end = state_.command_from_program(target);

@@ -13,6 +13,9 @@
 
 namespace trunnion::language {
 
+/// As BlockState::own_motion behind G80 of LinuxCNC: axis words need a code.
+inline constexpr std::uint16_t no_motion = 800;
+
 /// Words of a canned cycle as LinuxCNC keeps them, mm and seconds; in G91 they are increments.
 struct LinuxcncCycleWords {
   double initial = 0;  ///< level before the first cycle, program coordinates
@@ -62,7 +65,8 @@ struct BlockState {
   bool homing = false;            ///< it is the search
   std::uint16_t homed = 0;        ///< axes named by the searches so far, bit a for Axis a
   bool centre_absolute = false;   ///< G90.1 of LinuxCNC
-  bool motion_off = false;        ///< G80 of LinuxCNC: axis words need a code
+  bool needs_contact = false;     ///< the skip move has failed without one (G38.2)
+  std::uint16_t own_motion = 0;   ///< motion code that only LinuxCNC has, in tenths; 0: modal.motion acts
   double thread_lead = 0;         ///< F of G33 and G34, mm per revolution; 0 = none yet
   SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
   std::uint8_t settings_place = 0;

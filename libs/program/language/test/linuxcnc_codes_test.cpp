@@ -26,7 +26,7 @@ TestMachine machine_of_examples() {
 void expect_example(const std::string& example) {
   TestMachine machine = machine_of_examples();
   machine.diameter = example == "G7";
-  const Interpretation result = run(machine, example + "\nM2\n");
+  const Interpretation result = run(machine, example + "\nM2\n", {}, {}, {0, true, true});
   EXPECT_EQ(result.last, Step::end) << example << ": " << result.alarm.text.data();
 }
 

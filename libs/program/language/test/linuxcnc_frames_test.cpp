@@ -80,7 +80,7 @@ TEST(LinuxcncFrames, WithoutWordsAllAxesGoToTheReference) {
               ElementsAre("rapid X1 Y2", "rapid X500 Y400", "end 2"));
 }
 
-TestMachine machine_with_tools() {
+TestMachine machine_with_frames() {
   TestMachine machine = linuxcnc_machine();
   machine.tools[1] = {50, 1, 4, 0.5};
   machine.tools[2] = {30, 0, 2, 0};
@@ -88,7 +88,7 @@ TestMachine machine_with_tools() {
 }
 
 TEST(LinuxcncTools, LengthsAreThoseOfTheToolInTheSpindle) {
-  TestMachine machine = machine_with_tools();
+  TestMachine machine = machine_with_frames();
   EXPECT_THAT(stream(run(machine, "T1 M6 G43\nG0 Z0\nG43 H2\nZ0\nG49\nM2\n")),
               ElementsAre("T1", "M6", "frame none L51", "rapid Z51", "frame none L30 Z51", "rapid Z30",
                           "frame none L0 Z30", "end 2"));
@@ -102,7 +102,7 @@ TEST(LinuxcncTools, LengthsAreThoseOfTheToolInTheSpindle) {
 }
 
 TEST(LinuxcncTools, TheTableIsSetByPosition) {
-  TestMachine machine = machine_with_tools();
+  TestMachine machine = machine_with_frames();
   machine.more_offsets[3] = {0, 0, -27, 0, 0, 0, 0, 0, 0};
   // The wear of 1 mm stays: 10 - 1. The radius is 3 with its wear of 0.5.
   EXPECT_THAT(stream(run(machine, "G10 L1 P1 Z10 R3\nG43 H1\nM2\n")),
@@ -120,7 +120,7 @@ TEST(LinuxcncTools, TheTableIsSetByPosition) {
 }
 
 TEST(LinuxcncTools, CompensationTakesToolsOrDiameters) {
-  TestMachine machine = machine_with_tools();
+  TestMachine machine = machine_with_frames();
   // Tool 2 has the radius 2.
   const auto path = [&](const std::string& on) {
     return stream(run(machine, "F100\n" + on + "\nG1 X10\nX20 Y1\nX30\nG40 X40 Y20\nM2\n"));
