@@ -15,7 +15,7 @@ FUZZ_SECONDS ?= 6
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
 .PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak hostile hostile_bus recordings histories rests \
-  oscat nightly coverage package clean
+  oscat linuxcnc-tests nightly coverage package clean
 
 run: product
 	$(TRUNNION) run ac-table nas979_cone --report out
@@ -130,6 +130,11 @@ rests: build
 # OSCAT=DIR: the exports of OSCAT Basic, which is not a part of this repository. Compiles it and checks results of its functions.
 oscat: product
 	OSCAT='$(OSCAT)' tools/oscat/check_oscat.py $(TRUNNION)
+
+# LINUXCNC=DIR: the sources of LinuxCNC, which are not a part of this repository. Compares the paths of its own test programs with
+# those of its interpreter, and prints the share that agrees.
+linuxcnc-tests: product
+	LINUXCNC='$(LINUXCNC)' tools/linuxcnc/compare_paths.py $(TRUNNION)
 
 # Continues where an interrupted run of the same commit was.
 nightly:
