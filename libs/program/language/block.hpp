@@ -46,8 +46,9 @@ enum class Statement : std::uint8_t {
   call_sub,    ///< name and arguments
   break_loop,  ///< name
   continue_loop,
-  begin_if,  ///< condition
-  else_if,   ///< the condition is at `rest`, not evaluated yet: see Dialect::read_condition
+  modal_state,  ///< label is 70 to 73: M70 .. M73 (LinuxCNC)
+  begin_if,     ///< condition
+  else_if,      ///< the condition is at `rest`, not evaluated yet: see Dialect::read_condition
   else_,
   end_if,
   begin_while,  ///< condition; ends with ENDW

@@ -37,6 +37,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.thread_lead = 0;
     state.centre_absolute = false;
     state.own_motion = 0;
+    state.coolant = 0;
   }
   state.needs_position = state.homing = state.needs_contact = false;
   state.homed = 0;
@@ -221,6 +222,7 @@ Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
     command.number = code.number;
     command.value = angle;
     command.has_value = word != '\0';
+    if (context_.words.linuxcnc()) handlers_.linuxcnc_modal_state.note_coolant(code.number);
   } else if (code.action == MAction::program_end) {
     if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, at};
     if (const Fault fault = handlers_.linuxcnc_curves.check_end(at)) return fault;
@@ -414,6 +416,21 @@ Fault BlockExecutor::order_spindle(std::uint32_t number, double value, std::uint
   command.number = number;
   command.value = value;
   return context_.output.settle();
+}
+
+Fault BlockExecutor::restore_modes(const SavedModes& saved, std::uint32_t program, std::uint32_t line,
+                                   CommandQueue& out) {
+  context_.output.begin_block(program, line, out);
+  context_.detail.number = AlarmNumber::none;
+  context_.state.begin_block();
+  Fault fault = handlers_.linuxcnc_curves.check_end(0);
+  if (!fault) fault = handlers_.linuxcnc_modal_state.restore(saved);
+  if (!fault) fault = context_.output.settle();
+  if (fault) {
+    context_.state.roll_back();
+    context_.output.discard();
+  }
+  return fault;
 }
 
 Fault BlockExecutor::write_parameter(std::uint32_t number, double value, std::uint32_t program,

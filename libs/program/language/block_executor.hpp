@@ -108,6 +108,10 @@ class BlockExecutor {
   /// Appends an order for a spindle, `number` as Command::number.
   Fault order_spindle(std::uint32_t number, double value, std::uint32_t program, std::uint32_t line,
                       CommandQueue& out);
+  /// What M70 of LinuxCNC saves.
+  SavedModes save_modes() const { return handlers_.linuxcnc_modal_state.save(); }
+  /// Appends what brings that back (M72).
+  Fault restore_modes(const SavedModes& saved, std::uint32_t program, std::uint32_t line, CommandQueue& out);
   /// Appends the change of a parameter as G10 L50 does.
   Fault write_parameter(std::uint32_t number, double value, std::uint32_t program, std::uint32_t line,
                         CommandQueue& out);

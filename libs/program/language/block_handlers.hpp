@@ -8,6 +8,7 @@
 #include "language/linuxcnc_curves.hpp"
 #include "language/linuxcnc_cycles.hpp"
 #include "language/linuxcnc_frames.hpp"
+#include "language/linuxcnc_modal_state.hpp"
 #include "language/linuxcnc_modes.hpp"
 #include "language/linuxcnc_motion.hpp"
 #include "language/linuxcnc_threads.hpp"
@@ -42,6 +43,7 @@ struct BlockHandlers {
         linuxcnc_frames(context, frames, tables),
         linuxcnc_tools(context, tool, tables, linuxcnc_frames),
         linuxcnc_cycles(context, cycles),
+        linuxcnc_modal_state(context, modal, tool, linuxcnc_frames),
         linuxcnc_threads(context, motion),
         linuxcnc_curves(context),
         linuxcnc_motion(context, motion, positioning, linuxcnc_cycles, linuxcnc_threads, linuxcnc_curves) {}
@@ -62,6 +64,7 @@ struct BlockHandlers {
   LinuxcncFrames linuxcnc_frames;
   LinuxcncTools linuxcnc_tools;
   LinuxcncCycles linuxcnc_cycles;
+  LinuxcncModalState linuxcnc_modal_state;
   LinuxcncThreads linuxcnc_threads;
   LinuxcncCurves linuxcnc_curves;
   LinuxcncMotion linuxcnc_motion;

@@ -73,6 +73,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
     if (rules_.returns_to_r) executor_.return_to_r();
     control_.start();
     modal_calls_.clear();
+    kept_modes_[0].valid = kept_modes_[0].returns = false;
   }
   control_.forget_call();
   variables_.start(variables);

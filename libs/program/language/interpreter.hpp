@@ -160,6 +160,12 @@ class Interpreter {
     std::size_t modal_above = 0;  // of ModalCalls::enter()
     OpenStructures open;
   };
+  /// By M70 or M73 of LinuxCNC, at one level.
+  struct KeptModes {
+    SavedModes modes;
+    bool valid = false;
+    bool returns = false;  // at the end of the level
+  };
   /// Where a call from one text leads, so that a long text is searched once and not at every call.
   struct Found {
     const TextSource* caller = nullptr;
@@ -233,6 +239,9 @@ class Interpreter {
   State begin_sub(std::string_view line);
   State return_from_sub(std::string_view line);
   State leave_loop(std::string_view line);
+  State change_modes(std::string_view line);
+  /// Restores what M73 has saved at this level.
+  Fault return_modes();
   State search_sub(const Outline& outline, TextPosition position, std::string_view line);
   State search_sub_elsewhere();
   /// The file with the name of the called subroutine; null when there is none.
@@ -260,6 +269,7 @@ class Interpreter {
   Block block_;
   CycleMCodes cycle_m_codes_{};
   std::array<CallLevel, max_nesting + 1> levels_{};
+  std::array<KeptModes, max_nesting + 1> kept_modes_{};
   std::size_t depth_ = 0;
   State state_ = State::done;
   Alarm alarm_;

@@ -96,6 +96,7 @@ Interpreter::State Interpreter::enter(const Found& target) {
   level.sub = call_.name;
   level.defined = false;
   level.open.clear();
+  kept_modes_[depth_].valid = kept_modes_[depth_].returns = false;
   if (level.own_variables) variables_.enter(arguments_);
   variables_.names().enter();
   if (level.modal) level.modal_above = modal_calls_.enter();
@@ -132,6 +133,9 @@ Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::st
   if (depth_ == 0 && !options_.repeat) {
     if (const Fault fault = executor_.end_program(0, level.program, line_, queue_)) return fail(fault, line);
     return State::done;
+  }
+  if (depth_ != 0) {
+    if (const Fault fault = return_modes()) return fail(fault, line);
   }
   if (depth_ == 0 || level.remaining > 0) {
     if (depth_ != 0) --level.remaining;

@@ -33,6 +33,8 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
     case Statement::break_loop:
     case Statement::continue_loop:
       return leave_loop(line);
+    case Statement::modal_state:
+      return change_modes(line);
     case Statement::end_repeat:
       if (!level.open.runs_again(block_.key())) break;
       reader_.seek(*level.source, level.open.top().body);

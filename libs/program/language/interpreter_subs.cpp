@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "language/interpreter.hpp"
+#include "language/linuxcnc_codes.hpp"
 #include "language/linuxcnc_line.hpp"
 
 namespace trunnion::language {
@@ -69,6 +70,34 @@ Interpreter::State Interpreter::leave_loop(std::string_view line) {
   }
   return jump(again ? Purpose::last : Purpose::end, block_.name, position_,
               {AlarmNumber::begin_without_end, block_.at}, line, index + 1);
+}
+
+Interpreter::State Interpreter::change_modes(std::string_view line) {
+  KeptModes& kept = kept_modes_[depth_];
+  switch (block_.label) {
+    case forget_state_m:
+      kept.valid = kept.returns = false;
+      break;
+    case restore_state_m: {
+      if (!kept.valid) return fail({AlarmNumber::linuxcnc_modes_missing, block_.at}, line);
+      const Fault fault = executor_.restore_modes(kept.modes, levels_[depth_].program, line_, queue_);
+      if (fault) return fail({fault.number, block_.at, fault.detail}, line);
+      break;
+    }
+    default:
+      kept.modes = executor_.save_modes();
+      kept.valid = true;
+      kept.returns = kept.returns || block_.label == save_for_return_m;
+      break;
+  }
+  return execute_rest(line);
+}
+
+Fault Interpreter::return_modes() {
+  KeptModes& kept = kept_modes_[depth_];
+  const bool due = kept.returns;
+  kept.valid = kept.returns = false;
+  return due ? executor_.restore_modes(kept.modes, levels_[depth_].program, line_, queue_) : Fault{};
 }
 
 // Behind a second % there is no program any more.

@@ -109,8 +109,10 @@ inline constexpr std::array linuxcnc_missing_m_codes = {
     LinuxcncMissingCode{62, 65, "digital outputs"},
     LinuxcncMissingCode{66, 66, "waiting for an input"},
     LinuxcncMissingCode{67, 68, "analog outputs"},
-    LinuxcncMissingCode{70, 73, "M70 to M73: saved modal state"},
 };
+/// M70 to M73 save, forget and restore the modal state; their line holds no other code or word.
+inline constexpr std::uint16_t save_state_m = 70, forget_state_m = 71, restore_state_m = 72,
+                               save_for_return_m = 73;
 /// User programs of LinuxCNC.
 inline constexpr std::uint16_t first_user_m = 100, last_user_m = 199;
 

@@ -24,11 +24,13 @@ Fault LinuxcncReader::complete() {
   if (const Fault fault = complete_calls()) return fault;
   if (const Fault fault = assign()) return fault;
   if (const Fault fault = complete_comment()) return fault;
-  if (setting_count_ != 0 && !block_.has_more()) block_.statement = Statement::assignment;
+  if (setting_count_ != 0 && !block_.has_more() && block_.statement == Statement::none)
+    block_.statement = Statement::assignment;
   return {};
 }
 
 Fault LinuxcncReader::complete_m() {
+  if (const Fault fault = complete_state()) return fault;
   for (std::size_t i = 0; i < block_.m_count;) {
     bool dropped = false;
     if (const Fault fault = complete_override(i, dropped)) return fault;
@@ -39,6 +41,20 @@ Fault LinuxcncReader::complete_m() {
     ++i;
   }
   sort_m();
+  return {};
+}
+
+Fault LinuxcncReader::complete_state() {
+  for (std::size_t i = 0; i < block_.m_count; ++i) {
+    const CodeWord m = block_.m[i];
+    if (m.value < save_state_m || m.value > save_for_return_m) continue;
+    const bool alone = block_.m_count == 1 && block_.g_count == 0 && (block_.letters & ~Block::bit('N')) == 0;
+    if (!alone) return {AlarmNumber::linuxcnc_function_missing, m.offset, "M70 to M73 beside other words"};
+    block_.statement = Statement::modal_state;
+    block_.label = static_cast<std::uint32_t>(m.value);
+    block_.at = m.offset;
+    block_.m_count = 0;
+  }
   return {};
 }
 

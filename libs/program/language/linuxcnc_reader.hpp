@@ -46,6 +46,7 @@ class LinuxcncReader {
   // What must hold of the whole block, and what becomes of its words (linuxcnc_completion.cpp).
   Fault complete();
   Fault complete_m();
+  Fault complete_state();
   Fault complete_calls();
   Fault complete_override(std::size_t index, bool& dropped);
   Fault complete_orientation(std::uint16_t at);

@@ -108,6 +108,12 @@ AlarmNumber ControlVariables::linuxcnc_mode(LinuxcncValue which, double& value) 
       value = modal.work_offset < lettered_offsets ? 540 + 10 * modal.work_offset
                                                    : 585 + modal.work_offset;  // 591 of the seventh
       break;
+    case LinuxcncValue::mist:
+      value = flag_value((executor_.state().coolant & mist_on) != 0);
+      break;
+    case LinuxcncValue::flood:
+      value = flag_value((executor_.state().coolant & flood_on) != 0);
+      break;
     case LinuxcncValue::skip_touched:
       value = flag_value(skip_touched_);
       break;

@@ -18,6 +18,7 @@ AlarmNumber OpenStructures::pass(Statement statement, std::uint64_t key, TextPos
     case Statement::call_sub:
     case Statement::break_loop:
     case Statement::continue_loop:
+    case Statement::modal_state:
       return AlarmNumber::none;
     case Statement::begin_if:
     case Statement::begin_while:

@@ -15,6 +15,8 @@ namespace trunnion::language {
 
 /// As BlockState::own_motion behind G80 of LinuxCNC: axis words need a code.
 inline constexpr std::uint16_t no_motion = 800;
+/// Bits of BlockState::coolant.
+inline constexpr std::uint8_t mist_on = 1, flood_on = 2;
 
 /// Words of a canned cycle as LinuxCNC keeps them, mm and seconds; in G91 they are increments.
 struct LinuxcncCycleWords {
@@ -67,6 +69,7 @@ struct BlockState {
   bool centre_absolute = false;   ///< G90.1 of LinuxCNC
   bool needs_contact = false;     ///< the skip move has failed without one (G38.2)
   std::uint16_t own_motion = 0;   ///< motion code that only LinuxCNC has, in tenths; 0: modal.motion acts
+  std::uint8_t coolant = 0;       ///< what a LinuxCNC program has switched on: mist_on, flood_on
   double thread_lead = 0;         ///< F of G33 and G34, mm per revolution; 0 = none yet
   SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
   std::uint8_t settings_place = 0;

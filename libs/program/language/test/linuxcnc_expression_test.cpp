@@ -88,7 +88,7 @@ TEST(LinuxcncExpression, NamesMustHaveBeenWritten) {
   EXPECT_EQ(shown("EXISTS[#<a>+1]"), "alarm 1503");
   EXPECT_EQ(shown("#<_ini[setup]xpos>"), "alarm 1194");
   EXPECT_EQ(shown("#<_hal[motion.time]>"), "alarm 1194");
-  EXPECT_EQ(shown("#<_flood>"), "alarm 1194");
+  EXPECT_EQ(shown("#<_vmajor>"), "alarm 1194");
   EXPECT_EQ(shown("#<open"), "alarm 1503");
   EXPECT_THAT(linuxcnc_blocks("#<_x>=1"), ElementsAre("alarm 1510 1:1"));
   std::string many;
