@@ -163,7 +163,7 @@ def codes():
     out = ["# G and M codes", "", f"Generated from `{g_path}`, `{m_path}` and `{calls}` by `tools/generate_docs.py`.", "", "## G codes", "",
            "A block may contain one code of each group; a second one is an alarm. Every group except *one_block* and *exact_stop* is modal: the "
            "code stays active until another code of its group. "
-           "A motion code ends a cycle. A channel with parameter 04c959 = 1 reads the functions of [num.md](num.md) instead. *Dialect*: ISO 6983, Fanuc, HNC-8 or NUM controls, or g2core; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
+           "A motion code ends a cycle. A channel with parameter 04c959 = 1 reads the functions of [num.md](num.md) instead, with 2 those of [linuxcnc.md](linuxcnc.md). *Dialect*: ISO 6983, Fanuc, HNC-8 or NUM controls, or g2core; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
     out += table(("code", "group", "meaning", "dialect", "since", "example"), [(code_name(t), *rest) for t, *rest in g])
     out += ["", "## Calls", "", "Such a code is the only code of its block; see [macros.md](macros.md) for the arguments.", ""]
     out += table(("code", "meaning", "dialect", "since", "example"), [(code_name(a) + (f" .. {code_name(b)}" if b != a else ""), *rest) for a, b, *rest in c])
