@@ -34,8 +34,8 @@ enum class Step : std::uint8_t {
 struct InterpreterOptions {
   SkipLevels block_skip = 0;  ///< leave out blocks that begin with / (level 1) or /n of a level in it
   bool repeat = true;         ///< M99 in the main program begins it again, else it ends it
-  bool assume_contact =
-      false;  ///< a skip move that ends where it was to end has touched there: nothing moves
+  /// A skip move that ends where it was to end has touched there: nothing moves.
+  bool assume_contact = false;
 };
 
 /// Variables of a control that has never run a program.

@@ -22,10 +22,10 @@ Fault LinuxcncCurves::check() const {
 }
 
 Fault LinuxcncCurves::check_curve(std::uint16_t at) {
-  constexpr std::uint32_t plane_axes = letter_bits("XY");
+  constexpr std::uint32_t curve_axes = letter_bits("XY");
   if (state_.modal.plane != Plane::xy)
     return {AlarmNumber::linuxcnc_function_missing, at, "splines outside of G17"};
-  const std::uint32_t others = words_.letters() & axis_bits & ~plane_axes;
+  const std::uint32_t others = words_.letters() & axis_bits & ~curve_axes;
   if (others != 0) return {AlarmNumber::unused_word, words_.offset_of_any(others)};
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   if (state_.modal.feed_mode == FeedMode::inverse_time) return {AlarmNumber::cycle_inverse_time, at};
