@@ -227,6 +227,7 @@ Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
     if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, at};
     if (const Fault fault = handlers_.linuxcnc_curves.check_end(at)) return fault;
     if (const Fault fault = handlers_.linuxcnc_frames.check_end(at)) return fault;
+    if (context_.words.linuxcnc()) handlers_.linuxcnc_modal_state.stop_at_end();
     if (const Fault fault = context_.output.push_end(code.number)) return fault;
   }
   return {};

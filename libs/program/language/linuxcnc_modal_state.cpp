@@ -72,6 +72,13 @@ void LinuxcncModalState::restore_coolant(std::uint8_t saved) {
   if ((missing & flood_on) != 0) give(flood_code);
 }
 
+void LinuxcncModalState::stop_at_end() {
+  ModalState stopped = state_.modal;
+  stopped.spindle_direction = SpindleDirection::stopped;
+  restore_spindle(stopped);
+  restore_coolant(0);
+}
+
 void LinuxcncModalState::note_coolant(std::uint16_t code) {
   if (code == mist_code) state_.coolant = static_cast<std::uint8_t>(state_.coolant | mist_on);
   if (code == flood_code) state_.coolant = static_cast<std::uint8_t>(state_.coolant | flood_on);

@@ -26,6 +26,8 @@ class LinuxcncModalState : private BlockHandler {
   Fault restore(const SavedModes& saved);
   /// M7, M8 or M9 was given out.
   void note_coolant(std::uint16_t code);
+  /// M2 and M30 stop the spindle and the coolant that the program has switched on.
+  void stop_at_end();
 
  private:
   Fault restore_tool(const ModalState& saved);

@@ -82,6 +82,14 @@ TEST(LinuxcncCodes, AMachineMayHaveMCodesOfItsOwn) {
   EXPECT_THAT(stream(run(machine, "M8\nM2\n")), ElementsAre("alarm 1104 1:1"));
 }
 
+TEST(LinuxcncCodes, TheEndOfTheProgramStopsSpindleAndCoolant) {
+  EXPECT_THAT(linuxcnc_stream("S100 M3 M7 M8\nM30\n"),
+              ElementsAre("S100", "M3", "M7", "M8", "M5", "M9", "end 30"));
+  EXPECT_THAT(linuxcnc_stream("S100 M4\nM5\nM2\n"), ElementsAre("S100", "M4", "M5", "end 2"));
+  // A line of manual data input is no program that has ended.
+  EXPECT_THAT(linuxcnc_stream("M3 S100"), ElementsAre("S100", "M3", "end 0"));
+}
+
 TEST(LinuxcncCodes, OverridesThatAlwaysActAreNoOrder) {
   EXPECT_THAT(linuxcnc_blocks("M48\nM50 P1 M51\nM52 P0\nM53 X1"), ElementsAre("rapid X1"));
   EXPECT_THAT(linuxcnc_blocks("S100 $0 M3"), ElementsAre("S100", "M3"));

@@ -18,13 +18,13 @@ TEST(LinuxcncModalState, M73RestoresAtTheEndOfItsSubroutine) {
   machine.offsets[1] = {10, 0, 0, 0, 0, 0, 0, 0, 0};
   const Interpretation result = run(machine, sub + "S2500 M3 F200\no1 call [1]\nG1 X2\nM2\n");
   EXPECT_THAT(stream(result),
-              ElementsAre("S2500", "M3", "S300", "line X25.4 F5", "S2500", "line X2 F200", "end 2"));
+              ElementsAre("S2500", "M3", "S300", "line X25.4 F5", "S2500", "line X2 F200", "M5", "end 2"));
   EXPECT_EQ(result.modal.path_control, PathControl::continuous);
   EXPECT_FALSE(result.modal.return_to_initial);
   EXPECT_EQ(result.modal.work_offset, 0);
-  EXPECT_THAT(
-      stream(run(machine, sub + "S2500 M3 F200\no1 call [0]\nG1 X2\nM2\n")),
-      ElementsAre("S2500", "M3", "S300", "line X25.4 F5", "line X50.8 F5", "S2500", "line X2 F200", "end 2"));
+  EXPECT_THAT(stream(run(machine, sub + "S2500 M3 F200\no1 call [0]\nG1 X2\nM2\n")),
+              ElementsAre("S2500", "M3", "S300", "line X25.4 F5", "line X50.8 F5", "S2500", "line X2 F200",
+                          "M5", "end 2"));
 }
 
 TEST(LinuxcncModalState, M72RestoresSpindleCoolantAndLength) {

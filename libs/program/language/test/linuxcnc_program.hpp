@@ -2,6 +2,7 @@
 // Programs of the LinuxCNC dialect and the streams that they give.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,11 @@ inline std::vector<std::string> linuxcnc_stream(const std::string& program) {
 
 /// The stream without the end of the program that this adds.
 inline std::vector<std::string> linuxcnc_blocks(const std::string& blocks) {
-  std::vector<std::string> lines = linuxcnc_stream(blocks + "\nM2\n");
-  if (!lines.empty() && lines.back() == "end 2") lines.pop_back();
-  return lines;
+  TestMachine machine = linuxcnc_machine();
+  Interpretation result = run(machine, blocks + "\nM2\n");
+  const auto last = static_cast<std::uint32_t>(std::count(blocks.begin(), blocks.end(), '\n')) + 2;
+  while (!result.commands.empty() && result.commands.back().line == last) result.commands.pop_back();
+  return stream(result);
 }
 
 /// The texts of the messages, with an alarm at the end as in stream().

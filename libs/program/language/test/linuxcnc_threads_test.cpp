@@ -27,7 +27,7 @@ TEST(LinuxcncThreads, TheLeadIsAlongTheWay) {
 TEST(LinuxcncThreads, EveryThreadBeginsAtTheIndexMark) {
   TestMachine machine = linuxcnc_machine();
   const Interpretation result = run(machine, "S100 M3\nG33 Z-4 K1\nZ-8 K1\nM2\n");
-  ASSERT_EQ(result.commands.size(), 5u);
+  ASSERT_EQ(result.commands.size(), 6u);
   EXPECT_EQ(result.commands[2].number, 1u);
   EXPECT_EQ(result.commands[3].number, 1u);
   EXPECT_EQ(result.commands[3].modal.motion, 33);
@@ -74,6 +74,7 @@ TEST(LinuxcncThreads, PassesGoDeeperUntilTheFullHeight) {
   TestMachine machine = linuxcnc_machine();
   machine.diameter = true;
   std::vector<std::string> with_end = cuts;
+  with_end.emplace_back("M5");
   with_end.emplace_back("end 2");
   EXPECT_THAT(stream(run(machine, "G18 S100 M3\nG0 X20 Z5\nG76 P1 Z-10 I-4 J.4 K1.2 H1\nM2\n")),
               ElementsAreArray(with_end));
@@ -83,11 +84,12 @@ TEST(LinuxcncThreads, TapersKeepThePitchAlongZ) {
   TestMachine machine = linuxcnc_machine();
   const Interpretation result =
       run(machine, "G61 G18 S100 M3\nG0 X10 Z5\nG76 P1 Z-10 I-2 J.5 K.6 E.5 L3\nM2\n");
-  EXPECT_THAT(stream(result),
-              ElementsAre("S100", "M3", "rapid X10 Z5", "rapid X10.1 Z5", "rapid X8.1 Z5",
-                          "thread X7.5 Z4.5 lead1.2", "thread X7.5 Z-9.5 lead1", "thread X8.1 Z-10 lead1.2",
-                          "rapid X10.1 Z-10", "rapid X10 Z5", "rapid X8 Z5", "thread X7.4 Z4.5 lead1.2",
-                          "thread X7.4 Z-9.5 lead1", "thread X8 Z-10 lead1.2", "rapid X10 Z-10", "end 2"));
+  EXPECT_THAT(
+      stream(result),
+      ElementsAre("S100", "M3", "rapid X10 Z5", "rapid X10.1 Z5", "rapid X8.1 Z5", "thread X7.5 Z4.5 lead1.2",
+                  "thread X7.5 Z-9.5 lead1", "thread X8.1 Z-10 lead1.2", "rapid X10.1 Z-10", "rapid X10 Z5",
+                  "rapid X8 Z5", "thread X7.4 Z4.5 lead1.2", "thread X7.4 Z-9.5 lead1",
+                  "thread X8 Z-10 lead1.2", "rapid X10 Z-10", "M5", "end 2"));
   // The three are one thread, in spite of G61.
   const std::size_t first = 5;
   ASSERT_GT(result.commands.size(), first + 3);
