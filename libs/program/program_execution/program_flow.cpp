@@ -278,7 +278,7 @@ FlowState ProgramFlow::arrive_at_line() {
   const auto& modal = interpreter_.modal();
   if (modal.cutter_side != language::CutterSide::off)
     return fail_search("cutter radius compensation is on here: start before its G41 or G42");
-  if (modal.motion == 62) return fail_search("the line is in the middle of a curve (G6.2)");
+  if (modal.motion == 62) return fail_search("the line is in the middle of a curve (G6.2, G5.2)");
   search_ = Search::none;
   behind_thread_ = coupled_threads_ && command_.kind == CommandKind::thread &&
                    command_.modal.path_control == language::PathControl::continuous;
