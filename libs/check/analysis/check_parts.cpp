@@ -75,6 +75,13 @@ void print_ending(const ProgramReader& reader, Ending ending, const TextName& na
   }
 }
 
+TextName with_files(const ProgramReader& reader, const TextName& name) {
+  return [&reader, name](std::uint32_t program) {
+    const auto file = reader.interpreter().file_name(program);
+    return file.front() != '\0' ? std::string(file.data()) : name(program);
+  };
+}
+
 std::string warning_lines(const Warnings& warnings, const TextName& name) {
   std::string lines;
   for (const Warning& warning : warnings.sorted()) {

@@ -23,6 +23,10 @@ std::string alarm_text_of(const program_execution::ProgramReader& reader, progra
 void print_ending(const program_execution::ProgramReader& reader, program_execution::Ending ending,
                   const TextName& name, std::ostream& out);
 
+/// The same with the files that the program has called by their names (LinuxCNC), which have no numbers.
+/// `reader` must outlive it.
+TextName with_files(const program_execution::ProgramReader& reader, const TextName& name);
+
 /// A line for each.
 std::string warning_lines(const Warnings& warnings, const TextName& name);
 

@@ -36,8 +36,9 @@ bool check(ProgramReader& reader, const language::Environment& environment, Prog
   const bool good = ending == Ending::end || ending == Ending::repeats;
   if (!options.json_lines) {
     survey.end(ending == Ending::end, reader.interpreter().executor().program_position());
-    summary.print(out, reader.interpreter().blocks(), warning_lines(survey.warnings(), name));
-    print_ending(reader, ending, name, out);
+    const TextName named = with_files(reader, name);
+    summary.print(out, reader.interpreter().blocks(), warning_lines(survey.warnings(), named));
+    print_ending(reader, ending, named, out);
   } else if (good) {
     lines->end(tracker.machine());
   } else {

@@ -30,6 +30,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.modal.cycle = 80;
     state.modal.polar = state.modal.scaled = state.modal.mirrored = state.modal.rotated = false;
     settings.frame = ProgramFrame{};
+    settings.linuxcnc = {};
     settings.intermediate.reset();
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
@@ -38,8 +39,10 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.machining_mode = state.modal.smoothing;
     state.accurate_path = false;
     state.modal.suppressed = 0;
+    state.own_motion = 0;
+    state.coolant = 0;
   }
-  state.needs_position = state.homing = state.line_open = false;
+  state.needs_position = state.homing = state.needs_contact = state.line_open = false;
   state.homed = 0;
   context_.tables.load(context_.environment);
   settings.frame.set_work_offset(context_.tables.workpiece_zero(state.modal.work_offset));
@@ -54,6 +57,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
   handlers_.motion.start();
   handlers_.cycles.reset();
   handlers_.curve.reset();
+  handlers_.linuxcnc_curves.reset();
   state.locate(position);
 }
 
@@ -137,6 +141,12 @@ Fault BlockExecutor::resume(CommandQueue& out) {
     case Activity::curve:
       fault = handlers_.curve.next_chord();
       break;
+    case Activity::spline:
+      fault = handlers_.linuxcnc_curves.next_chord();
+      break;
+    case Activity::passes:
+      fault = handlers_.linuxcnc_threads.next_pass();
+      break;
   }
   if (!fault) fault = {context_.state.setting_fault(), 0, "with the setting error of G54.4"};
   if (fault || context_.activity != Activity::none) return fault;
@@ -149,6 +159,7 @@ Fault BlockExecutor::resume(CommandQueue& out) {
 Fault BlockExecutor::check_context() const {
   if (const Fault fault = handlers_.planes.check()) return fault;
   if (const Fault fault = handlers_.curve.check()) return fault;
+  if (const Fault fault = handlers_.linuxcnc_curves.check()) return fault;
   return handlers_.tables.check();
 }
 
@@ -162,7 +173,7 @@ Fault BlockExecutor::check_axis_words(bool& taken) const {
        {Group::one_block, Group::stroke_zone, Group::scaling, Group::mirror, Group::rotation}) {
     if (!words.g().has(group)) continue;
     const AxisWords use = words.g().code(group).axis_words;
-    if (use == AxisWords::move || (use == AxisWords::shared && !axes)) continue;
+    if (use == AxisWords::move || use == AxisWords::passed || (use == AxisWords::shared && !axes)) continue;
     at = words.g().offset(group);
     ++takers;
   }
@@ -172,7 +183,9 @@ Fault BlockExecutor::check_axis_words(bool& taken) const {
 
 Fault BlockExecutor::act() {
   const GCodes& g = context_.words.g();
-  const bool one_block = g.has(Group::one_block);
+  const bool linuxcnc = context_.words.linuxcnc();
+  if (linuxcnc) handlers_.linuxcnc_motion.note_codes();
+  const bool one_block = g.has(Group::one_block) && g.code(Group::one_block).axis_words != AxisWords::passed;
   if (handlers_.curve.open()) return handlers_.curve.add_block();
   if (orientation_word() != '\0') return {};
   if (context_.state.parameter_input && !one_block) return handlers_.tables.parameter_line();
@@ -182,6 +195,7 @@ Fault BlockExecutor::act() {
     if (const Fault fault = carry_out(frame_groups | group_bit(Group::one_block))) return fault;
     if (taken || one_block) return {};
   }
+  if (linuxcnc) return handlers_.linuxcnc_motion.move();
   if (context_.words.axes_used()) return {};  // a modal code has taken them
   const ModalState& modal = context_.state.modal;
   if (modal.cycle != 80)
@@ -219,9 +233,13 @@ Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
     command.number = code.number;
     command.value = angle;
     command.has_value = word != '\0';
+    if (context_.words.linuxcnc()) handlers_.linuxcnc_modal_state.note_coolant(code.number);
     if (code.action == MAction::tool_change) return handlers_.modal.ready_tool();
   } else if (code.action == MAction::program_end) {
     if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, at};
+    if (const Fault fault = handlers_.linuxcnc_curves.check_end(at)) return fault;
+    if (const Fault fault = handlers_.linuxcnc_frames.check_end(at)) return fault;
+    if (context_.words.linuxcnc()) handlers_.linuxcnc_modal_state.stop_at_end();
     if (const Fault fault = context_.output.push_end(code.number)) return fault;
   }
   return {};
@@ -312,8 +330,8 @@ Fault BlockExecutor::set_call(Flow& flow) {
     flow.counted = true;
     return {};
   }
-  // Q alone is a sequence number of this program, as on Fanuc 30i.
-  const bool label_alone = !words.has('P') && words.has('Q') && !words.used('Q');
+  // Q alone is a sequence number of this program, as on Fanuc 30i. LinuxCNC has neither Q nor H here.
+  const bool label_alone = !words.linuxcnc() && !words.has('P') && words.has('Q') && !words.used('Q');
   const char number = label_alone ? 'Q' : 'P';
   flow.local = flow.local || label_alone;
   if (!words.has(number)) return {AlarmNumber::missing_word, flow.offset, needs('P')};
@@ -322,7 +340,7 @@ Fault BlockExecutor::set_call(Flow& flow) {
     if (words.has(letter) && words.used(letter)) return {AlarmNumber::unused_word, words.offset(letter)};
   }
   if (const Fault fault = words.whole_number(number, 1, 99999999, flow.subprogram)) return fault;
-  if (!label_alone) {
+  if (!label_alone && !words.linuxcnc()) {
     if (const Fault fault = set_label(flow)) return fault;
   }
   if (!words.has('L')) return {};
@@ -355,7 +373,7 @@ bool BlockExecutor::calls() const {
 
 void BlockExecutor::set_position(const AxisValues& position) {
   if (context_.output.compensating()) context_.output.drop_compensation();
-  context_.state.needs_position = context_.state.homing = false;
+  context_.state.needs_position = context_.state.homing = context_.state.needs_contact = false;
   context_.state.locate(position);
 }
 
@@ -381,6 +399,8 @@ Fault BlockExecutor::end_program(std::uint32_t number, std::uint32_t program, st
   // Behind a line of manual data input the next one may hold the swing.
   const bool more = number == 0 && beginning_ == Beginning::line;
   if (context_.state.swing_due && !more) return {AlarmNumber::tilt_swing_missing, 0};
+  if (const Fault fault = handlers_.linuxcnc_curves.check_end(0)) return fault;
+  if (const Fault fault = handlers_.linuxcnc_frames.check_end(0)) return fault;
   if (const Fault fault = context_.output.push_end(number)) return fault;
   const Fault fault = context_.output.settle();
   if (fault) context_.output.discard();
@@ -446,6 +466,21 @@ Fault BlockExecutor::order_spindle(std::uint32_t number, double value, std::uint
   command.number = number;
   command.value = value;
   return context_.output.settle();
+}
+
+Fault BlockExecutor::restore_modes(const SavedModes& saved, std::uint32_t program, std::uint32_t line,
+                                   CommandQueue& out) {
+  context_.output.begin_block(program, line, out);
+  context_.detail.number = AlarmNumber::none;
+  context_.state.begin_block();
+  Fault fault = handlers_.linuxcnc_curves.check_end(0);
+  if (!fault) fault = handlers_.linuxcnc_modal_state.restore(saved);
+  if (!fault) fault = context_.output.settle();
+  if (fault) {
+    context_.state.roll_back();
+    context_.output.discard();
+  }
+  return fault;
 }
 
 Fault BlockExecutor::write_parameter(std::uint32_t number, double value, std::uint32_t program,

@@ -30,6 +30,7 @@ AlarmNumber refusal(VariableKind kind) {
 void Variables::start(const VariableStore& store) {
   store_ = store;
   level_ = 0;
+  names_.start();
   system_reads_ = 0;
   written_count_ = 0;
   levels_[0].arguments.clear();
@@ -50,12 +51,14 @@ void Variables::copy_to(VariableImage& image) const {
   image.store = store_;
   for (std::size_t i = 0; i <= level_; ++i) image.locals[i] = levels_[i].values;
   image.level = level_;
+  image.names = names_.digest();
   image.system_reads = system_reads_;
 }
 
 // The locals first: a loop counts in them most often.
 bool Variables::same_as(const VariableImage& image) const {
-  if (image.level != level_ || image.system_reads != system_reads_) return false;
+  if (image.level != level_ || image.system_reads != system_reads_ || image.names != names_.digest())
+    return false;
   for (std::size_t i = level_ + 1; i-- > 0;)
     if (image.locals[i] != levels_[i].values) return false;
   return image.store == store_;
