@@ -45,12 +45,13 @@ void BlockChecks::see(const SeenBlock& seen) {
   offset_ = first_of(block, language::axis_bits);
   line_.assign(seen.line);
   one_block_ = 0;
-  if (iso_) check_condition(seen);
+  const bool linuxcnc = is_linuxcnc(block);
+  if (iso_ && !linuxcnc) check_condition(seen);
   if (block.statement == language::Statement::call_cycle) probes_ = true;
   if (block.empty() && block.statement == language::Statement::none) return;
   if (seen.program == 0) last_line_ = seen.number, returns_ = has_m(block, 99);
   language::Call call;
-  calls_ = language::find_call(block, cycle_m_codes_, call);
+  calls_ = !linuxcnc && language::find_call(block, cycle_m_codes_, call);
   if (calls_ || block.empty()) return;
   check_change(seen);
   check_length(seen);
@@ -63,13 +64,14 @@ void BlockChecks::see(const SeenBlock& seen) {
 void BlockChecks::note(const SeenBlock& seen) {
   const Block& block = seen.block;
   const FoundCode positions = code_of(block, Group::one_block);
-  if (positions) one_block_ = positions.code->tenths;
+  if (positions) one_block_ = tenths_of(*positions.code);
   stated_.units = stated_.units || code_of(block, Group::units);
   stated_.distance = stated_.distance || code_of(block, Group::distance);
   stated_.work_offset = stated_.work_offset || code_of(block, Group::work_offset);
   // F of a search for references is its speed, and no feed.
   stated_.feed = stated_.feed || (block.has('F') && !positions.is(282) && !positions.is(1590));
-  probes_ = probes_ || positions.is(310);
+  const FoundCode motion = code_of(block, Group::motion);
+  probes_ = probes_ || positions.is(310) || motion.is(382) || motion.is(383);
 }
 
 // A T may be in the block of its M6 or in one before.
@@ -103,7 +105,10 @@ void BlockChecks::check_radius(const SeenBlock& seen) {
   const Block& block = seen.block;
   const FoundCode side = code_of(block, Group::cutter_compensation);
   if (!side || side.is(400)) return;
-  const double entry = block.has('D') ? block.value('D') : seen.modal.radius_offset;
+  const bool of_spindle = is_linuxcnc(block) && !(block.has('D') && block.value('D') != 0);
+  const double entry = of_spindle       ? seen.modal.tool
+                       : block.has('D') ? block.value('D')
+                                        : seen.modal.radius_offset;
   if (entry != 0) return;
   warnings_.add(WarningKind::radius_missing,
                 place_of(seen, block.has('D') ? block.offset('D') : side.offset));
@@ -118,7 +123,7 @@ void BlockChecks::check_return(const SeenBlock& seen) {
     const char letter = language::axis_letters[axis];
     if (canonical::is_rotary(axis) || !block.has(letter) || block.value(letter) != 0) continue;
     auto* const warning = warnings_.add(WarningKind::return_over_zero, place_of(seen, block.offset(letter)));
-    if (warning != nullptr) warning->detail = fmt::format("G{} {}0", code.code->tenths / 10, letter);
+    if (warning != nullptr) warning->detail = fmt::format("G{} {}0", tenths_of(*code.code) / 10, letter);
     return;
   }
 }

@@ -44,7 +44,7 @@ NamedFigure* add_named(std::vector<NamedFigure>& list, const std::string& name, 
 }
 
 std::string g_name(const language::GCode& code) {
-  const unsigned whole = code.tenths / 10u, tenth = code.tenths % 10u;
+  const unsigned tenths = tenths_of(code), whole = tenths / 10u, tenth = tenths % 10u;
   return tenth == 0 ? fmt::format("G{}", whole) : fmt::format("G{}.{}", whole, tenth);
 }
 
@@ -100,7 +100,7 @@ bool ProgramFigures::note_calls(const SeenBlock& seen) {
     add_named(calls_, std::string(language::ProgramName(number).view()), seen, block.m[i].offset);
   }
   language::Call call;
-  if (!language::find_call(block, cycle_m_codes_, call)) return false;
+  if (is_linuxcnc(block) || !language::find_call(block, cycle_m_codes_, call)) return false;
   const bool complete = !language::read_call(block, call);
   if (!complete || call.kind == language::CallKind::modal_cancel) return true;
   const bool cycle = call.kind == language::CallKind::cycle;
@@ -113,11 +113,12 @@ bool ProgramFigures::note_calls(const SeenBlock& seen) {
 void ProgramFigures::note_codes(const SeenBlock& seen) {
   const auto& block = seen.block;
   for (std::size_t i = 0; i < block.g_count; ++i) {
-    const auto* const code = g_code_of(block.g[i]);
+    const auto* const code = g_code_of(block, block.g[i]);
     if (code == nullptr) continue;
-    const bool drills = code->group == language::Group::cycle && code->tenths != 800;
-    if (drills || is_pattern(code->tenths)) add_named(cycles_, g_name(*code), seen, block.g[i].offset);
-    if (code->tenths == 530 || code->tenths == 280 || code->tenths == 300) in_machine_coordinates_ = true;
+    const std::uint16_t tenths = tenths_of(*code);
+    const bool drills = code->group == language::Group::cycle && tenths != 800;
+    if (drills || is_pattern(tenths)) add_named(cycles_, g_name(*code), seen, block.g[i].offset);
+    if (tenths == 530 || tenths == 280 || tenths == 300) in_machine_coordinates_ = true;
     const char* const reason = code->no_effect;
     if (reason == nullptr) continue;
     if (auto* const named = add_named(without_effect_, g_name(*code), seen, block.g[i].offset))

@@ -189,7 +189,6 @@ struct DialectRules {
   std::uint32_t homing_program = 0;    ///< a call of it, unless it is stored, homes the axis of L0; 0: none
   bool text_closes_else = false;       ///< the end of a program closes an IF behind its ELSE
   bool heads_end_text = true;          ///< a second head ends the started program
-  bool text_needs_end = false;         ///< it ends with M2, M30, M99 or %, and not with its text
   bool returns_to_r = false;           ///< a program begins with G99
   bool number_counts = true;           ///< digits before the last four of a called number may be repetitions
   VariableNumber system_number = nullptr;  ///< as Variables::set_numbers()

@@ -296,12 +296,7 @@ Interpreter::State Interpreter::run_line(Step& step) {
     }
     return execute(line);
   }
-  if (status == LineReader::Status::end) {
-    // A single line is no file that could be cut off, but one of manual data input.
-    const bool whole = depth_ != 0 || position_.line <= 2 || !rules_.text_needs_end;
-    return whole ? end_of_text() : fail({AlarmNumber::linuxcnc_end_missing, 0}, {});
-  }
-  return report_line_status(status, step);
+  return status == LineReader::Status::end ? end_of_text() : report_line_status(status, step);
 }
 
 Interpreter::State Interpreter::execute(std::string_view line) {

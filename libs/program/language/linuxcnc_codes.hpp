@@ -31,6 +31,8 @@ inline constexpr std::array linuxcnc_shared_codes = {
     LinuxcncSharedCode{282, 282, "search of the references of the axes named: not in LinuxCNC", "G28.2 X0"},
     LinuxcncSharedCode{400, 400, "cutter radius compensation off", "G40"},
     LinuxcncSharedCode{490, 490, "tool length off", "G49"},
+    LinuxcncSharedCode{
+        500, 500, "scaling off, which there is none of: not in LinuxCNC, written by posts for Mach3", "G50"},
     LinuxcncSharedCode{610, 610, "exact path: here an exact stop at the end of every block", "G61"},
     LinuxcncSharedCode{611, 610, "exact stop", "G61.1"},
     LinuxcncSharedCode{640, 640, "continuous path; P off the corners at most, Q off collinear points",

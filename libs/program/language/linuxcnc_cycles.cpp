@@ -9,6 +9,7 @@ namespace {
 
 /// mm, between two pecks, when D does not give it: 0.01 inch.
 constexpr double peck_clearance = 0.254;
+constexpr double smallest_ngc_peck = 0.001;  // mm
 constexpr std::uint32_t most_repeats = 9999;
 constexpr std::uint32_t linear_axes = letter_bits("XYZ");
 
@@ -95,7 +96,7 @@ Fault LinuxcncCycles::read_settings(std::uint16_t at, bool same, LinuxcncCycleWo
   hole.linuxcnc = true;
   if (is_pecking(cycle)) {
     if (words_.has('Q')) words.peck = words_.length('Q');
-    if (!(words.peck > 0))
+    if (!(words.peck >= smallest_ngc_peck))
       return {AlarmNumber::cycle_peck_missing, words_.has('Q') ? words_.offset('Q') : at};
     hole.peck = words.peck;
     if (words_.has('D')) hole.retract = hole.clearance = words_.length('D');

@@ -12,7 +12,6 @@ DialectRules LinuxcncDialect::rules() const {
   DialectRules rules;
   rules.cycle_m_codes = false;
   rules.heads_end_text = false;
-  rules.text_needs_end = true;
   rules.number_counts = false;
   rules.returns_to_r = true;
   return rules;

@@ -140,11 +140,12 @@ Fault LinuxcncFrames::set_place(std::uint16_t at) {
   const double degrees = index < own.rotations.size() ? own.rotations[index] : 0;
   const AxisValues shift = own.shifted ? own.shift : AxisValues{};
   const AxisValues offset = context_.tables.work_offset(index);
+  const AxisValues zero = context_.tables.workpiece_zero(index);
   // Without the tool length, which is no part of the systems.
   const AxisValues contour = state_.frame().contour_from_program(state_.program_position);
   AxisValues machine = state_.frame().command_from_contour(contour);
   AxisValues place{};
-  for (std::size_t axis = 0; axis < axis_count; ++axis) place[axis] = machine[axis] - offset[axis];
+  for (std::size_t axis = 0; axis < axis_count; ++axis) place[axis] = machine[axis] - zero[axis];
   place = turned_about_z(place, -degrees);
   for (std::size_t axis = 0; axis < axis_count; ++axis) {
     place[axis] -= shift[axis];
@@ -156,7 +157,8 @@ Fault LinuxcncFrames::set_place(std::uint16_t at) {
   // The others stay bit for bit, but for the second of two that turn.
   const bool turns = degrees != 0 && (axes & 3u) != 0;
   for (std::size_t axis = 0; axis < axis_count; ++axis)
-    if (((axes >> axis) & 1u) != 0 || (turns && axis <= Y)) values[axis] = machine[axis] - place[axis];
+    if (((axes >> axis) & 1u) != 0 || (turns && axis <= Y))
+      values[axis] = machine[axis] - place[axis] - (zero[axis] - offset[axis]);
   tables_.store_work_offset(index, values);
   update();
   return {};

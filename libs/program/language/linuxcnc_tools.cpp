@@ -128,7 +128,7 @@ Fault LinuxcncTools::change_tool(std::uint16_t at, std::uint32_t l) {
   const auto entry = static_cast<std::uint16_t>(number);
   if (words_.has('Z')) {
     const double offset = l == 10   ? state_.frame().total_offset()[Z]
-                          : l == 11 ? context_.tables.work_offset(fixture_system)[Z]
+                          : l == 11 ? context_.tables.workpiece_zero(fixture_system)[Z]
                                     : 0;
     const double length = l == 1 ? z : state_.position[Z] - offset - z;
     if (const Fault fault = tables_.set_tool(Table::tool_length, entry, length - tool->length_wear, at))

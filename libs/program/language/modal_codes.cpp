@@ -127,8 +127,10 @@ Fault ModalCodes::spindle_word() {
                                                  : words_.offset('S');
     };
     if (!(modal.surface_speed > 0)) return {AlarmNumber::surface_speed_missing, at()};
-    // At the centre of the spindle its speed would be beyond all measure.
-    if (!(speed_limit(modal) > 0)) return {AlarmNumber::surface_speed_limit, at()};
+    // At the centre of the spindle its speed would be beyond all measure. LinuxCNC has the limit of the
+    // machine, and there may be no machine.
+    const bool unknown = words_.linuxcnc() && environment_.m_functions() == nullptr;
+    if (!(speed_limit(modal) > 0) && !unknown) return {AlarmNumber::surface_speed_limit, at()};
   }
   const bool limited = surface && modal.spindle_limit != before.spindle_limit;
   if (speed_given || changes || limited)

@@ -12,6 +12,7 @@ AlarmNumber OpenStructures::pass(Statement statement, std::uint64_t key, TextPos
     case Statement::assignment:
     case Statement::go_to:
     case Statement::call_cycle:
+    case Statement::print:
     case Statement::begin_sub:
     case Statement::end_sub:
     case Statement::return_sub:

@@ -315,7 +315,11 @@ Fault PathMotion::read_corner(std::optional<Corner>& corner) {
 Fault PathMotion::set_turns(const AxisValues& target, Arc& arc) {
   const std::uint8_t normal = plane_axes(arc.plane).normal;
   const char lead_letter = static_cast<char>('I' + normal);
-  if (words_.linuxcnc()) return {};
+  if (words_.linuxcnc()) {
+    // LinuxCNC has no meaning for the word; posts that write all three letters write 0.
+    if (words_.has(lead_letter) && words_.value(lead_letter) == 0) words_.use(lead_letter);
+    return {};
+  }
   if (!words_.has(lead_letter) || (state_.modal.tool_vector && words_.has('R'))) return {};
   // The third centre letter is the lead of a helix: how far it goes in a turn, hence how many turns. Posts
   // that write all three letters write 0, which says nothing, also of an arc in the plane.

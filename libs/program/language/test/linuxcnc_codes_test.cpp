@@ -135,6 +135,7 @@ TEST(LinuxcncCodes, ArcsTakeTurnsByP) {
   EXPECT_THAT(linuxcnc_blocks("F100\nG3 I1"), ElementsAre("arc ccw 1 0 0 360deg F100"));
   EXPECT_THAT(linuxcnc_blocks("F100\nG2 X2 I1 P0"), ElementsAre("alarm 1106 2:10"));
   EXPECT_THAT(linuxcnc_blocks("F100\nG2 X2 I1 K1"), ElementsAre("alarm 1107 2:10"));
+  EXPECT_THAT(linuxcnc_blocks("F100\nG2 X2 Z1 I1 K0.0"), ElementsAre("arc X2 Z1 cw 1 0 0 180deg F100"));
   EXPECT_THAT(linuxcnc_blocks("F100\nG2 X2 I1 L2"), ElementsAre("alarm 1107 2:10"));
 }
 
@@ -162,6 +163,12 @@ TEST(LinuxcncCodes, SurfaceSpeedHasItsLimitInD) {
   EXPECT_EQ(result.commands[0].modal.spindle_limit, 2000);
   EXPECT_EQ(result.commands[0].modal.spindle_mode, SpindleMode::surface);
   EXPECT_THAT(stream(run(machine, "G96 D2000\nM2\n")), ElementsAre("alarm 1114 1:1"));
+  // Without D the spindle has the limit of the machine, which a check may not know.
+  EXPECT_THAT(linuxcnc_blocks("G96 S150\nG97"), ElementsAre("S150", "S0"));
+  machine.highest_speed = 0;
+  machine.functions.emplace();
+  machine.functions->add("3 4 5; 6");
+  EXPECT_THAT(stream(run(machine, "G96 S150\nM2\n")), ElementsAre("alarm 1134 1:1"));
 }
 
 TEST(LinuxcncCodes, DiametersAreAMatterOfTheMachine) {

@@ -152,11 +152,9 @@ TEST(LinuxcncFlow, WrongOWordsAreAlarms) {
   EXPECT_THAT(linuxcnc_blocks(call), ElementsAre("alarm 1016 1:" + std::to_string(9 + 30 * 4)));
 }
 
-TEST(LinuxcncFlow, ATextNeedsItsEnd) {
-  EXPECT_THAT(linuxcnc_stream("X1\nX2\n"), ElementsAre("rapid X1", "rapid X2", "alarm 1640 3:1"));
+TEST(LinuxcncFlow, ATextEndsTheProgramAndSoDoesASecondPercent) {
+  EXPECT_THAT(linuxcnc_stream("X1\nX2\n"), ElementsAre("rapid X1", "rapid X2", "end 0"));
   EXPECT_THAT(linuxcnc_stream("%\nX1\n%\nX2\n"), ElementsAre("rapid X1", "end 0"));
-  // A line of manual data input is no file.
-  EXPECT_THAT(linuxcnc_stream("X1"), ElementsAre("rapid X1", "end 0"));
   // Nothing behind the second % belongs to the program.
   EXPECT_THAT(linuxcnc_stream("%\no1 call\n%\no1 sub\nX1\no1 endsub\n"), ElementsAre("alarm 1401 2:1"));
   EXPECT_THAT(linuxcnc_stream("% X1\nM2\n"), ElementsAre("alarm 1013 1:3"));
