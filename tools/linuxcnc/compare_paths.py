@@ -28,6 +28,7 @@ INCH = 25.4
 TOLERANCE = 0.004  # mm: rs274 prints four decimals, of inches too
 MOST_LINES = 400000
 SECONDS = 5
+NO_END = 'ended with no percent sign'  # in messages of rs274
 Move = collections.namedtuple('Move', 'kind end centre plane turns')
 Path = collections.namedtuple('Path', 'moves error endless')
 CALL = re.compile(r'^\s*\d+\s+N\S*\s+(\w+)\((.*)\)\s*$')
@@ -153,7 +154,10 @@ def path_of_rs274(rs274, folder, program):
         if call:
             canonical.command(call[1], call[2])
     words = [line for line in err.splitlines() if line.strip() and line.strip() != 'executing']
-    return Path(canonical.moves, (words[-2] if len(words) > 1 else 'refused') if code != 0 else None, False)
+    # It finds this behind the last move; here the text may end a program.
+    if code == 0 or NO_END in err:
+        return Path(canonical.moves, None, False)
+    return Path(canonical.moves, words[-2] if len(words) > 1 else 'refused', False)
 
 
 def moves_of_check(text):

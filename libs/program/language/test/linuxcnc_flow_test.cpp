@@ -102,6 +102,23 @@ TEST(LinuxcncFlow, NumberedProgramsAreCalledByM98) {
   EXPECT_THAT(linuxcnc_stream("M98 P20007\nM2\nO7\nX2\nM99\n"), ElementsAre("alarm 1401 1:5"));
 }
 
+TEST(LinuxcncFlow, WhatOnlyOtherControlsCallIsNoCall) {
+  EXPECT_THAT(linuxcnc_blocks("M98 Q5\nN5 X1"), ElementsAre("alarm 1108 1:1"));
+  EXPECT_THAT(linuxcnc_blocks("M98 P5 H2"), ElementsAre("alarm 1107 1:8"));
+  // Codes that call programs of the machine are those of ISO programs.
+  TestMachine machine = linuxcnc_machine();
+  machine.calls.t = true;
+  machine.calls.m[0] = 8;
+  machine.cycle_m_codes[0] = 7;
+  EXPECT_THAT(stream(run(machine, "T1 M6 M7 M8\nM2\n")), ElementsAre("T1", "M6", "M7", "M8", "M9", "end 2"));
+}
+
+TEST(LinuxcncFlow, CommentsMayBeInComments) {
+  EXPECT_THAT(linuxcnc_blocks("(cut (3/16) )X1\n( a (b)) Y1"), ElementsAre("rapid X1", "rapid X1 Y1"));
+  EXPECT_THAT(linuxcnc_messages("(MSG, hole (2))"), ElementsAre("hole (2)"));
+  EXPECT_THAT(linuxcnc_blocks("(open"), ElementsAre("alarm 1004 1:1"));
+}
+
 TEST(LinuxcncFlow, FilesHoldSubroutines) {
   TestMachine machine = linuxcnc_machine();
   machine.programs["pocket"] = std::make_unique<StringSource>(
