@@ -15,7 +15,7 @@ FUZZ_SECONDS ?= 6
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
 .PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak hostile hostile_bus recordings histories rests \
-  oscat corpus nightly coverage package clean
+  oscat corpus linuxcnc-tests nightly coverage package clean
 
 run: product
 	$(TRUNNION) run ac-table nas979_cone --report out
@@ -135,6 +135,11 @@ oscat: product
 # the verdicts with those of the table; tools/corpus.py --fetch downloads them.
 corpus: product
 	CORPUS='$(CORPUS)' tools/corpus.py $(TRUNNION) --jobs $(JOBS)
+
+# LINUXCNC=DIR: the sources of LinuxCNC, which are not a part of this repository. Compares the paths of its own test programs with
+# those of its interpreter, and prints the share that agrees.
+linuxcnc-tests: product
+	LINUXCNC='$(LINUXCNC)' tools/linuxcnc/compare_paths.py $(TRUNNION)
 
 # Continues where an interrupted run of the same commit was.
 nightly:

@@ -94,7 +94,9 @@ Json error_of(const ProgramReader& reader) {
                 {"number", static_cast<unsigned>(alarm.number)},
                 {"text", text}};
   if (alarm.program == 0) return error;
-  error["program"] = std::string(language::ProgramName(alarm.program).view());
+  error["program"] = alarm.file_name.front() != '\0'
+                         ? std::string(alarm.file_name.data())
+                         : std::string(language::ProgramName(alarm.program).view());
   error["program_line"] = alarm.line;
   error["column"] = 0;
   error["line"] = alarm.calls > 0 ? alarm.chain[0].line : reader.interpreter().main_line();

@@ -66,7 +66,7 @@ void ArcChecks::see(const SeenBlock& seen, bool calls) {
 ArcChecks::Path ArcChecks::path_of(const SeenBlock& seen, bool calls) const {
   const Block& block = seen.block;
   const FoundCode motion = code_of(block, Group::motion), cycle = code_of(block, Group::cycle);
-  const int code = motion ? motion.code->tenths / 10 : seen.modal.motion;
+  const int code = motion ? tenths_of(*motion.code) / 10 : seen.modal.motion;
   const bool in_cycle = cycle ? !cycle.is(800) : !motion && seen.modal.cycle != 80;
   Path path;
   path.start = seen.position;

@@ -2,6 +2,7 @@
 // The programs that the codes of a block call: by the table of codes, or by a parameter of the channel.
 #pragma once
 
+#include "analysis/block_codes.hpp"
 #include "language/block_watch.hpp"
 #include "language/environment.hpp"
 #include "language/macro_call.hpp"
@@ -22,6 +23,7 @@ class BlockCalls {
     constexpr language::CycleMCodes none{};
     const bool num = seen.dialect == language::ProgramDialect::num;
     rest_ = &seen.block;
+    if (is_linuxcnc(seen.block)) return false;
     if (!num && by_code(seen.block)) return true;
     return language::find_call(seen.block, num ? none : cycle_m_codes_, call_);
   }

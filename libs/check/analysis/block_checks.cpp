@@ -53,7 +53,8 @@ void BlockChecks::see(const SeenBlock& seen) {
   line_.assign(seen.line);
   one_block_ = 0;
   num_ = seen.dialect == language::ProgramDialect::num;
-  if (!num_) check_condition(seen);
+  const bool linuxcnc = is_linuxcnc(block);
+  if (!num_ && !linuxcnc) check_condition(seen);
   const bool called = block.statement == language::Statement::call_cycle;
   probes_ = probes_ || (called && block.program_number == measuring_cycle);
   if (block.empty() && block.statement == language::Statement::none) return;
@@ -67,20 +68,23 @@ void BlockChecks::see(const SeenBlock& seen) {
   check_radius(rest);
   check_return(rest);
   check_m(rest);
-  if (!num_) check_cycle(rest);
+  if (!num_ && !linuxcnc) check_cycle(rest);
   note(rest);
 }
 
 void BlockChecks::note(const SeenBlock& seen) {
   const Block& block = seen.block;
   const FoundCode positions = code_of(block, Group::one_block);
-  if (positions) one_block_ = positions.code->tenths;
+  if (positions) one_block_ = tenths_of(*positions.code);
   stated_.units = stated_.units || code_of(block, Group::units);
   stated_.distance = stated_.distance || code_of(block, Group::distance);
   stated_.work_offset = stated_.work_offset || code_of(block, Group::work_offset);
   // F of a search for references is its speed, and no feed.
   stated_.feed = stated_.feed || (block.has('F') && !positions.is(282) && !positions.is(1590));
-  probes_ = probes_ || (positions && positions.code->tenths / 10 == 31);  // G31, G31.1 to G31.3
+  // G31, G31.1 to G31.3; G38.2 and G38.3 of LinuxCNC.
+  const FoundCode motion = code_of(block, Group::motion);
+  probes_ =
+      probes_ || (positions && tenths_of(*positions.code) / 10 == 31) || motion.is(382) || motion.is(383);
 }
 
 // M6 of other controls ends a cycle, here it goes on. A return may be the end of the program: it is named
@@ -164,7 +168,10 @@ void BlockChecks::check_radius(const SeenBlock& seen) {
   const Block& block = seen.block;
   const FoundCode side = code_of(block, Group::cutter_compensation);
   if (!side || side.is(400)) return;
-  const double entry = block.has('D') ? block.value('D') : seen.modal.radius_offset;
+  const bool of_spindle = is_linuxcnc(block) && !(block.has('D') && block.value('D') != 0);
+  const double entry = of_spindle       ? seen.modal.tool
+                       : block.has('D') ? block.value('D')
+                                        : seen.modal.radius_offset;
   if (entry != 0) return;
   warnings_.add(WarningKind::radius_missing,
                 place_of(seen, block.has('D') ? block.offset('D') : side.offset));
@@ -179,7 +186,7 @@ void BlockChecks::check_return(const SeenBlock& seen) {
     const char letter = language::axis_letters[axis];
     if (canonical::is_rotary(axis) || !block.has(letter) || block.value(letter) != 0) continue;
     auto* const warning = warnings_.add(WarningKind::return_over_zero, place_of(seen, block.offset(letter)));
-    if (warning != nullptr) warning->detail = fmt::format("G{} {}0", code.code->tenths / 10, letter);
+    if (warning != nullptr) warning->detail = fmt::format("G{} {}0", tenths_of(*code.code) / 10, letter);
     return;
   }
 }

@@ -93,6 +93,13 @@ std::string unknown_lines(std::uint16_t axes, const std::string& m_codes) {
   return lines;
 }
 
+TextName with_files(const ProgramReader& reader, const TextName& name) {
+  return [&reader, name](std::uint32_t program) {
+    const auto file = reader.interpreter().file_name(program);
+    return file.front() != '\0' ? std::string(file.data()) : name(program);
+  };
+}
+
 std::string warning_lines(const Warnings& warnings, const TextName& name) {
   std::string lines;
   for (const Warning& warning : warnings.sorted()) {

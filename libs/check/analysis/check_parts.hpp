@@ -26,6 +26,9 @@ void print_ending(const program_execution::ProgramReader& reader, program_execut
 /// What a check without a machine does not know: a line of the rotary ones among `axes`, bit a for Axis a,
 /// and one of the M codes that are in no table. Empty when there are neither.
 std::string unknown_lines(std::uint16_t axes, const std::string& m_codes);
+/// The same with the files that the program has called by their names (LinuxCNC), which have no numbers.
+/// `reader` must outlive it.
+TextName with_files(const program_execution::ProgramReader& reader, const TextName& name);
 
 /// A line for each.
 std::string warning_lines(const Warnings& warnings, const TextName& name);

@@ -46,9 +46,10 @@ bool check(ProgramReader& reader, const language::Environment& environment, bool
   const bool good = ending == Ending::end || ending == Ending::repeats;
   if (!options.json_lines) {
     survey.end(ending == Ending::end, reader.interpreter().executor().program_position());
+    const TextName named = with_files(reader, name);
     const std::string unknown = known ? std::string() : unknown_lines_of(summary, environment);
-    summary.print(out, reader.interpreter().blocks(), unknown + warning_lines(survey.warnings(), name));
-    print_ending(reader, ending, name, out);
+    summary.print(out, reader.interpreter().blocks(), unknown + warning_lines(survey.warnings(), named));
+    print_ending(reader, ending, named, out);
   } else if (good) {
     lines->end(tracker.machine());
   } else {

@@ -129,17 +129,21 @@ void JsonLines::end(const language::AxisValues& mcs) {
 
 void JsonLines::error(const language::Alarm& alarm) {
   flush();
-  const auto name = [](std::uint32_t program) { return json_string(language::ProgramName(program).view()); };
+  const auto name = [](std::uint32_t program, const language::FileName& file) {
+    return json_string(file.front() != '\0' ? std::string_view(file.data())
+                                            : language::ProgramName(program).view());
+  };
   out_ << "{\"error\":{\"line\":" << alarm.line << ",\"column\":" << alarm.column
        << ",\"number\":" << static_cast<unsigned>(alarm.number)
        << ",\"text\":" << json_string(alarm.text.data());
   if (alarm.foreign != nullptr) out_ << ",\"remedy\":" << json_string(foreign_text(*alarm.foreign));
-  if (alarm.program != 0) out_ << ",\"program\":" << name(alarm.program);
+  if (alarm.program != 0) out_ << ",\"program\":" << name(alarm.program, alarm.file_name);
   if (alarm.calls != 0) {
     out_ << ",\"called_from\":[";
     for (std::size_t i = alarm.calls; i-- > 0;) {
       out_ << "{\"line\":" << alarm.chain[i].line;
-      if (alarm.chain[i].program != 0) out_ << ",\"program\":" << name(alarm.chain[i].program);
+      if (alarm.chain[i].program != 0)
+        out_ << ",\"program\":" << name(alarm.chain[i].program, alarm.chain[i].file);
       out_ << (i == 0 ? "}" : "},");
     }
     out_ << "]";

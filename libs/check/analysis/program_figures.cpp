@@ -47,7 +47,7 @@ NamedFigure* add_named(std::vector<NamedFigure>& list, const std::string& name, 
 }
 
 std::string g_name(const language::GCode& code) {
-  const unsigned whole = code.tenths / 10u, tenth = code.tenths % 10u;
+  const unsigned tenths = tenths_of(code), whole = tenths / 10u, tenth = tenths % 10u;
   return tenth == 0 ? fmt::format("G{}", whole) : fmt::format("G{}.{}", whole, tenth);
 }
 
@@ -130,12 +130,13 @@ bool ProgramFigures::is_unknown(std::uint16_t m) const {
 void ProgramFigures::note_codes(const SeenBlock& seen) {
   const auto& block = seen.block;
   for (std::size_t i = 0; i < block.g_count; ++i) {
-    const auto* const code = g_code_of(block.g[i]);
+    const auto* const code = g_code_of(block, block.g[i]);
     if (code == nullptr) continue;
-    const bool drills = code->group == language::Group::cycle && code->tenths != 800;
-    if (drills || is_pattern(code->tenths)) add_named(cycles_, g_name(*code), seen, block.g[i].offset);
+    const std::uint16_t tenths = tenths_of(*code);
+    const bool drills = code->group == language::Group::cycle && tenths != 800;
+    if (drills || is_pattern(tenths)) add_named(cycles_, g_name(*code), seen, block.g[i].offset);
     const bool to_machine =
-        std::find(machine_places.begin(), machine_places.end(), code->tenths) != machine_places.end();
+        std::find(machine_places.begin(), machine_places.end(), tenths) != machine_places.end();
     in_machine_coordinates_ = in_machine_coordinates_ || to_machine;
     const char* const reason = code->no_effect;
     if (reason == nullptr) continue;

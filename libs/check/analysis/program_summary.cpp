@@ -62,10 +62,11 @@ class SummaryRun final : public language::BlockWatch {
 
   bool write(const ProgramReader& reader, Ending ending, const CheckOptions& options, const TextName& name,
              std::uint64_t lines, std::ostream& out) const {
+    const TextName named = with_files(reader, name);
     SummaryReport report{figures_,
                          survey_.warnings(),
                          environment_,
-                         name,
+                         named,
                          lengths_known_,
                          lines,
                          reader.interpreter().blocks(),
@@ -79,7 +80,7 @@ class SummaryRun final : public language::BlockWatch {
       out << to_json(report) << "\n";
     } else {
       out << to_text(report);
-      print_ending(reader, ending, name, out);
+      print_ending(reader, ending, named, out);
     }
     return good && !has_unknown_m();
   }

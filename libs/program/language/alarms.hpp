@@ -31,10 +31,14 @@ const char* needs(char letter);
 /// Subprograms, macros and cycles inside each other.
 inline constexpr std::size_t max_nesting = 8;
 
+/// The name of a file that a program calls by its name (LinuxCNC), ends with a zero; empty for other texts.
+using FileName = std::array<char, 48>;
+
 /// A place in a text: a call that led to an alarm.
 struct CallSite {
   std::uint32_t program = 0;  ///< as Command::program
   std::uint32_t line = 0;     ///< from 1
+  FileName file{};            ///< of `program`
 };
 
 struct ForeignWord;
@@ -43,6 +47,7 @@ struct ForeignWord;
 struct Alarm {
   AlarmNumber number = AlarmNumber::none;
   std::uint32_t program = 0;                  ///< as Command::program
+  FileName file_name{};                       ///< of `program`
   std::uint32_t line = 0;                     ///< from 1
   std::uint32_t column = 0;                   ///< in characters (code points) from 1
   std::array<char, 192> text{};               ///< what is wrong and the word at fault, ends with a zero

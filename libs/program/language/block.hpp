@@ -20,6 +20,8 @@ inline constexpr std::size_t max_m_codes = 8;
 inline constexpr std::size_t max_call_centres = 30;
 /// Arguments of CYCLE1234(...): #1 to #33, as many as a macro call can set.
 inline constexpr std::size_t max_cycle_arguments = 33;
+/// Of a message that a reader composes, bytes.
+inline constexpr std::size_t longest_text = 96;
 
 /// One G or M of a block.
 struct CodeWord {
@@ -42,14 +44,25 @@ enum class Statement : std::uint8_t {
   go_to,       ///< label
   call_cycle,  ///< program_number and arguments
   print,       ///< printed
-  begin_if,    ///< condition
-  else_if,     ///< the condition is at `rest`, not evaluated yet: see Dialect::read_condition
+  begin_sub,   ///< name; the definition of a subroutine (LinuxCNC), passed but for a call
+  end_sub,     ///< name, and the value that the subroutine returns, if any: the first of arguments
+  return_sub,  ///< likewise
+  call_sub,    ///< name and arguments
+  break_loop,  ///< name
+  continue_loop,
+  modal_state,  ///< label is 70 to 73: M70 .. M73 (LinuxCNC)
+  begin_if,     ///< condition
+  else_if,      ///< the condition is at `rest`, not evaluated yet: see Dialect::read_condition
   else_,
   end_if,
   begin_while,  ///< condition; ends with ENDW
   end_while,
-  begin_do,  ///< condition and label; ends with END and the same label
-  end_do,    ///< label
+  begin_do,      ///< condition and label; ends with END and the same label
+  end_do,        ///< label
+  begin_repeat,  ///< name, and how often: the first of arguments
+  end_repeat,
+  begin_until,  ///< name; a loop whose condition is at its end
+  end_until,    ///< condition. LinuxCNC writes WHILE: OpenStructures::meaning()
 };
 
 /// Whether the statement opens, divides or closes a structure of several blocks.
@@ -61,6 +74,9 @@ struct CallCentre {
   std::uint16_t offset = 0;
   double value = 0;
 };
+
+/// Which G and M codes a block has.
+enum class CodeTable : std::uint8_t { common, linuxcnc };
 
 /// Words behind a comma, kept as further letters: ,C a chamfer and ,R a rounding at the end of the move, ,A
 /// the angle of its line.
@@ -97,6 +113,8 @@ struct Block {
   char lead_word = 'F';  ///< of threads and taps; with K (NUM), F is a feed
   ThreadBlock thread = ThreadBlock::chained;
   Statement statement = Statement::none;
+  CodeTable table = CodeTable::common;
+  std::uint8_t text_size = 0;  ///< of a message that the reader has composed; 0: message_at tells where it is
   std::uint8_t g_count = 0;
   std::uint8_t m_count = 0;
   std::uint8_t centre_count = 0;
@@ -113,6 +131,8 @@ struct Block {
   std::array<CodeWord, max_g_codes> g{};
   std::array<CodeWord, max_m_codes> m{};
   std::array<CallCentre, max_call_centres> centres{};
+  std::uint64_t name = 0;  ///< NameKey of an O word (LinuxCNC), 0: the statement is none
+  std::array<char, longest_text> text{};
   std::uint8_t argument_count = 0;
   std::array<Value, max_cycle_arguments> arguments{};  ///< of call_cycle; vacant: skipped, or a text
   PrintLine printed;                                   ///< of print
@@ -121,6 +141,8 @@ struct Block {
   bool has(char letter) const { return (letters & bit(letter)) != 0; }
   double value(char letter) const { return values[static_cast<std::size_t>(letter - 'A')]; }
   std::uint16_t offset(char letter) const { return offsets[static_cast<std::size_t>(letter - 'A')]; }
+  /// What the ends of its structure must have in common with its beginning.
+  std::uint64_t key() const { return name != 0 ? name : label; }
   bool empty() const { return letters == 0 && g_count == 0 && m_count == 0 && !message; }
   /// It holds more than its sequence number and its statement.
   bool has_more() const { return (letters & ~bit('N')) != 0 || g_count != 0 || m_count != 0 || message; }
@@ -133,7 +155,9 @@ struct Block {
     lead_word = 'F';
     thread = ThreadBlock::chained;
     statement = Statement::none;
-    called = 0;
+    table = CodeTable::common;
+    name = called = 0;
+    text_size = 0;
     g_count = m_count = centre_count = argument_count = 0;
     letters = pointed = 0;
   }
@@ -146,7 +170,9 @@ struct Outline {
   std::uint32_t program_number = 0;
   std::optional<std::uint32_t> sequence_number;  ///< N
   std::uint32_t label = 0;                       ///< of begin_do and end_do
+  std::uint64_t name = 0;                        ///< as Block::name
   Fault behind;  ///< of else_ and the ends: what read_block finds wrong behind the word
+  std::uint64_t key() const { return name != 0 ? name : label; }
 };
 
 /// What a line is in front of a program, where a post, a printer or a transmission may leave text.
@@ -166,6 +192,8 @@ struct DialectRules {
   bool cycle_m_codes = true;           ///< the M codes of parameters 010170 .. 010177 call cycles
   std::uint32_t homing_program = 0;    ///< a call of it, unless it is stored, homes the axis of L0; 0: none
   bool text_closes_else = false;       ///< the end of a program closes an IF behind its ELSE
+  bool heads_end_text = true;          ///< a second head ends the started program
+  bool returns_to_r = false;           ///< a program begins with G99
   bool number_counts = true;           ///< digits before the last four of a called number may be repetitions
   VariableNumber system_number = nullptr;  ///< as Variables::set_numbers()
   bool tool_times = false;                 ///< #5401 to #5500 are times of tools

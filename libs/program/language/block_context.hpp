@@ -14,7 +14,7 @@
 namespace trunnion::language {
 
 /// What gives more commands after its block has been executed.
-enum class Activity : std::uint8_t { none, holes, curve, vector };
+enum class Activity : std::uint8_t { none, holes, curve, vector, spline, passes };
 
 /// The text of a fault beyond its number.
 struct FaultDetail {

@@ -9,7 +9,6 @@
 namespace trunnion::language {
 namespace {
 
-constexpr std::uint32_t highest_repetition = 999999;
 constexpr double largest_angle = 360;  // deg
 constexpr double read_seconds = 0.01;  // behind which a value is read: the PLC's main task has run
 
@@ -30,6 +29,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.modal.cycle = 80;
     state.modal.polar = state.modal.scaled = state.modal.mirrored = state.modal.rotated = false;
     settings.frame = ProgramFrame{};
+    settings.linuxcnc = {};
     settings.intermediate.reset();
     state.parameter_input = state.swing_due = false;
     state.parked = SpindleDirection::stopped;
@@ -38,8 +38,10 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     state.machining_mode = state.modal.smoothing;
     state.accurate_path = false;
     state.modal.suppressed = 0;
+    state.own_motion = 0;
+    state.coolant = 0;
   }
-  state.needs_position = state.homing = state.line_open = false;
+  state.needs_position = state.homing = state.needs_contact = state.line_open = false;
   state.homed = 0;
   context_.tables.load(context_.environment);
   settings.frame.set_work_offset(context_.tables.workpiece_zero(state.modal.work_offset));
@@ -54,6 +56,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
   handlers_.motion.start();
   handlers_.cycles.reset();
   handlers_.curve.reset();
+  handlers_.linuxcnc_curves.reset();
   state.locate(position);
 }
 
@@ -150,6 +153,12 @@ Fault BlockExecutor::resume(CommandQueue& out) {
     case Activity::curve:
       fault = handlers_.curve.next_chord();
       break;
+    case Activity::spline:
+      fault = handlers_.linuxcnc_curves.next_chord();
+      break;
+    case Activity::passes:
+      fault = handlers_.linuxcnc_threads.next_pass();
+      break;
   }
   if (!fault) fault = {context_.state.setting_fault(), 0, "with the setting error of G54.4"};
   if (fault || context_.activity != Activity::none) return fault;
@@ -162,6 +171,7 @@ Fault BlockExecutor::resume(CommandQueue& out) {
 Fault BlockExecutor::check_context() const {
   if (const Fault fault = handlers_.planes.check()) return fault;
   if (const Fault fault = handlers_.curve.check()) return fault;
+  if (const Fault fault = handlers_.linuxcnc_curves.check()) return fault;
   return handlers_.tables.check();
 }
 
@@ -175,7 +185,7 @@ Fault BlockExecutor::check_axis_words(bool& taken) const {
        {Group::one_block, Group::stroke_zone, Group::scaling, Group::mirror, Group::rotation}) {
     if (!words.g().has(group)) continue;
     const AxisWords use = words.g().code(group).axis_words;
-    if (use == AxisWords::move || (use == AxisWords::shared && !axes)) continue;
+    if (use == AxisWords::move || use == AxisWords::passed || (use == AxisWords::shared && !axes)) continue;
     at = words.g().offset(group);
     ++takers;
   }
@@ -185,7 +195,9 @@ Fault BlockExecutor::check_axis_words(bool& taken) const {
 
 Fault BlockExecutor::act() {
   const GCodes& g = context_.words.g();
-  const bool one_block = g.has(Group::one_block);
+  const bool linuxcnc = context_.words.linuxcnc();
+  if (linuxcnc) handlers_.linuxcnc_motion.note_codes();
+  const bool one_block = g.has(Group::one_block) && g.code(Group::one_block).axis_words != AxisWords::passed;
   if (handlers_.curve.open()) return handlers_.curve.add_block();
   if (orientation_word() != '\0') return {};
   if (context_.state.parameter_input && !one_block) return handlers_.tables.parameter_line();
@@ -195,6 +207,7 @@ Fault BlockExecutor::act() {
     if (const Fault fault = carry_out(frame_groups | group_bit(Group::one_block))) return fault;
     if (taken || one_block) return {};
   }
+  if (linuxcnc) return handlers_.linuxcnc_motion.move();
   if (context_.words.axes_used()) return {};  // a modal code has taken them
   const ModalState& modal = context_.state.modal;
   if (modal.cycle != 80)
@@ -232,9 +245,13 @@ Fault BlockExecutor::carry_out(const MCode& code, std::uint16_t at) {
     command.number = code.number;
     command.value = angle;
     command.has_value = word != '\0';
+    if (context_.words.linuxcnc()) handlers_.linuxcnc_modal_state.note_coolant(code.number);
     if (code.action == MAction::tool_change) return handlers_.modal.ready_tool();
   } else if (code.action == MAction::program_end) {
     if (handlers_.curve.open()) return {AlarmNumber::curve_incomplete, at};
+    if (const Fault fault = handlers_.linuxcnc_curves.check_end(at)) return fault;
+    if (const Fault fault = handlers_.linuxcnc_frames.check_end(at)) return fault;
+    if (context_.words.linuxcnc()) handlers_.linuxcnc_modal_state.stop_at_end();
     if (const Fault fault = context_.output.push_end(code.number)) return fault;
   }
   return {};
@@ -293,83 +310,9 @@ Fault BlockExecutor::orientation(std::uint16_t code, char word, double& angle) {
   return {};
 }
 
-Fault BlockExecutor::set_flow(Flow& flow) {
-  flow = Flow{};
-  BlockWords& words = context_.words;
-  const MCodes& m = words.m();
-  for (std::size_t i = 0; i < m.count; ++i) {
-    const MAction action = m.codes[i].action;
-    if (action == MAction::auxiliary || action == MAction::tool_change) continue;
-    flow.offset = m.offsets[i];
-    if (action == MAction::program_end) flow.kind = Flow::Kind::end;
-    if (action == MAction::go_back) {
-      flow.kind = Flow::Kind::go_back;
-      flow.to_label = words.has('P');
-      if (flow.to_label && words.used('P')) return {AlarmNumber::unused_word, words.offset('P')};
-      if (flow.to_label) {
-        if (const Fault fault = words.whole_number('P', 0, 99999999, flow.subprogram)) return fault;
-      }
-    }
-    if (action != MAction::call) continue;
-    if (const Fault fault = set_call(flow)) return fault;
-  }
-  return {};
-}
-
-Fault BlockExecutor::set_call(Flow& flow) {
-  BlockWords& words = context_.words;
-  flow.kind = Flow::Kind::call;
-  flow.local = words.calls_locally();
-  if (words.called() != 0) {
-    flow.subprogram = words.called();
-    flow.counted = true;
-    return {};
-  }
-  // Q alone is a sequence number of this program, as on Fanuc 30i.
-  const bool label_alone = !words.has('P') && words.has('Q') && !words.used('Q');
-  const char number = label_alone ? 'Q' : 'P';
-  flow.local = flow.local || label_alone;
-  if (!words.has(number)) return {AlarmNumber::missing_word, flow.offset, needs('P')};
-  // P and L have one meaning each: a dwell or turns in the same block leave none for the call.
-  for (const char letter : {number, 'L'}) {
-    if (words.has(letter) && words.used(letter)) return {AlarmNumber::unused_word, words.offset(letter)};
-  }
-  if (const Fault fault = words.whole_number(number, 1, 99999999, flow.subprogram)) return fault;
-  // What is called by a sequence number begins there.
-  if (!flow.local) {
-    if (const Fault fault = set_label(flow)) return fault;
-  }
-  if (!words.has('L')) return {};
-  flow.counted = true;
-  const Fault fault = words.whole_number('L', 0, highest_repetition, flow.repetitions);
-  // As in LinuxCNC a call no times is none.
-  if (!fault && flow.repetitions == 0) flow.kind = Flow::Kind::next;
-  return fault;
-}
-
-// H is the tool length where G43 has taken it, as Q may be a word of a cycle.
-Fault BlockExecutor::set_label(Flow& flow) {
-  BlockWords& words = context_.words;
-  for (const char letter : {'H', 'Q'}) {
-    if (!words.has(letter) || words.used(letter)) continue;
-    if (flow.from_label) return {AlarmNumber::unused_word, words.offset(letter)};
-    flow.from_label = true;
-    flow.label_offset = words.offset(letter);
-    if (const Fault fault = words.whole_number(letter, 0, 99999999, flow.label)) return fault;
-  }
-  return {};
-}
-
-bool BlockExecutor::calls() const {
-  const MCodes& m = context_.words.m();
-  for (std::size_t i = 0; i < m.count; ++i)
-    if (m.codes[i].action == MAction::call) return true;
-  return false;
-}
-
 void BlockExecutor::set_position(const AxisValues& position) {
   if (context_.output.compensating()) context_.output.drop_compensation();
-  context_.state.needs_position = context_.state.homing = false;
+  context_.state.needs_position = context_.state.homing = context_.state.needs_contact = false;
   context_.state.locate(position);
 }
 
@@ -395,6 +338,8 @@ Fault BlockExecutor::end_program(std::uint32_t number, std::uint32_t program, st
   // Behind a line of manual data input the next one may hold the swing.
   const bool more = number == 0 && beginning_ == Beginning::line;
   if (context_.state.swing_due && !more) return {AlarmNumber::tilt_swing_missing, 0};
+  if (const Fault fault = handlers_.linuxcnc_curves.check_end(0)) return fault;
+  if (const Fault fault = handlers_.linuxcnc_frames.check_end(0)) return fault;
   if (const Fault fault = context_.output.push_end(number)) return fault;
   const Fault fault = context_.output.settle();
   if (fault) context_.output.discard();
@@ -460,6 +405,21 @@ Fault BlockExecutor::order_spindle(std::uint32_t number, double value, std::uint
   command.number = number;
   command.value = value;
   return context_.output.settle();
+}
+
+Fault BlockExecutor::restore_modes(const SavedModes& saved, std::uint32_t program, std::uint32_t line,
+                                   CommandQueue& out) {
+  context_.output.begin_block(program, line, out);
+  context_.detail.number = AlarmNumber::none;
+  context_.state.begin_block();
+  Fault fault = handlers_.linuxcnc_curves.check_end(0);
+  if (!fault) fault = handlers_.linuxcnc_modal_state.restore(saved);
+  if (!fault) fault = context_.output.settle();
+  if (fault) {
+    context_.state.roll_back();
+    context_.output.discard();
+  }
+  return fault;
 }
 
 Fault BlockExecutor::write_parameter(std::uint32_t number, double value, std::uint32_t program,

@@ -59,6 +59,9 @@ class BlockExecutor {
   /// `modal` must be what modal() was at the end of the line before.
   void start(const AxisValues& position, const ModalState& modal, Beginning beginning = Beginning::program);
 
+  /// G99, before the first block.
+  void return_to_r() { context_.state.modal.return_to_initial = false; }
+
   /// Appends the block's commands to `out`, which must be empty; sequence numbers count from start().
   Fault execute(const Block& block, std::uint32_t program, std::uint32_t line, CommandQueue& out, Flow& flow);
 
@@ -114,6 +117,10 @@ class BlockExecutor {
   /// Appends an order for a spindle, `number` as Command::number.
   Fault order_spindle(std::uint32_t number, double value, std::uint32_t program, std::uint32_t line,
                       CommandQueue& out);
+  /// What M70 of LinuxCNC saves.
+  SavedModes save_modes() const { return handlers_.linuxcnc_modal_state.save(); }
+  /// Appends what brings that back (M72).
+  Fault restore_modes(const SavedModes& saved, std::uint32_t program, std::uint32_t line, CommandQueue& out);
   /// Appends the change of a parameter as G10 L50 does.
   Fault write_parameter(std::uint32_t number, double value, std::uint32_t program, std::uint32_t line,
                         CommandQueue& out);
@@ -124,6 +131,9 @@ class BlockExecutor {
   void suppress(bool single_block, std::uint8_t value);
 
   const ModalState& modal() const { return context_.state.modal; }
+  /// Beside it what LinuxCNC has set.
+  const BlockState& state() const { return context_.state; }
+  const LinuxcncFrame& linuxcnc_frame() const { return context_.state.settings().linuxcnc; }
   /// Where the last move that was read ends, in the frame of its commands. With cutter compensation this is
   /// the contour, not the centre of the tool.
   const AxisValues& position() const { return context_.state.position; }

@@ -6,6 +6,14 @@
 #include "language/drilling_cycles.hpp"
 #include "language/frame_codes.hpp"
 #include "language/line_tapping.hpp"
+#include "language/linuxcnc_curves.hpp"
+#include "language/linuxcnc_cycles.hpp"
+#include "language/linuxcnc_frames.hpp"
+#include "language/linuxcnc_modal_state.hpp"
+#include "language/linuxcnc_modes.hpp"
+#include "language/linuxcnc_motion.hpp"
+#include "language/linuxcnc_threads.hpp"
+#include "language/linuxcnc_tools.hpp"
 #include "language/modal_codes.hpp"
 #include "language/num_tapping.hpp"
 #include "language/path_motion.hpp"
@@ -32,7 +40,15 @@ struct BlockHandlers {
         cycles(context),
         num_tapping(context),
         tap_removal(context),
-        line_tapping(context) {}
+        line_tapping(context),
+        linuxcnc_modes(context),
+        linuxcnc_frames(context, frames, tables),
+        linuxcnc_tools(context, tool, tables, linuxcnc_frames),
+        linuxcnc_cycles(context, cycles),
+        linuxcnc_modal_state(context, modal, tool, linuxcnc_frames),
+        linuxcnc_threads(context, motion),
+        linuxcnc_curves(context),
+        linuxcnc_motion(context, motion, positioning, linuxcnc_cycles, linuxcnc_threads, linuxcnc_curves) {}
 
   ModalCodes modal;
   ToolCodes tool;
@@ -47,6 +63,14 @@ struct BlockHandlers {
   NumTapping num_tapping;
   TapRemoval tap_removal;
   LineTapping line_tapping;
+  LinuxcncModes linuxcnc_modes;
+  LinuxcncFrames linuxcnc_frames;
+  LinuxcncTools linuxcnc_tools;
+  LinuxcncCycles linuxcnc_cycles;
+  LinuxcncModalState linuxcnc_modal_state;
+  LinuxcncThreads linuxcnc_threads;
+  LinuxcncCurves linuxcnc_curves;
+  LinuxcncMotion linuxcnc_motion;
 };
 
 }  // namespace trunnion::language

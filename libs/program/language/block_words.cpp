@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "language/decimal.hpp"
+#include "language/linuxcnc_codes.hpp"
 
 namespace trunnion::language {
 namespace {
@@ -49,7 +50,8 @@ Fault BlockWords::collect_g() {
     const CodeWord& word = block_->g[i];
     const double tenths = std::round(word.value * 10);
     const bool exact = std::abs(word.value * 10 - tenths) < 1e-9 && tenths >= 0 && tenths < 10000;
-    const GCode* const code = exact ? g_code(static_cast<std::uint32_t>(tenths)) : nullptr;
+    const auto number = static_cast<std::uint32_t>(exact ? tenths : 0);
+    const GCode* const code = !exact ? nullptr : linuxcnc() ? linuxcnc_g_code(number) : g_code(number);
     if (code == nullptr) return {AlarmNumber::unknown_g, word.offset};
     if (g_.has(code->group)) return {AlarmNumber::group_twice, word.offset};
     g_.add(*code, word.offset);
@@ -65,7 +67,13 @@ Fault BlockWords::collect_m() {
   for (std::size_t i = 0; i < block_->m_count; ++i) {
     const CodeWord& word = block_->m[i];
     if (!is_whole(word.value, 0, highest_m)) return {AlarmNumber::unknown_m, word.offset};
-    const MCode code = m_code(static_cast<std::uint16_t>(word.value));
+    const auto number = static_cast<std::uint16_t>(word.value);
+    const auto own = linuxcnc() ? linuxcnc_m_code(number) : std::nullopt;
+    const MCode code = own ? *own : m_code(number);
+    // What LinuxCNC does not have can only be a function of this machine.
+    if (linuxcnc() && !own && (functions_ == nullptr || !functions_->has(number)))
+      return {AlarmNumber::linuxcnc_m_unknown, word.offset,
+              number >= first_user_m && number <= last_user_m ? "a user program of LinuxCNC" : nullptr};
     if (!has_function(code)) return {AlarmNumber::unknown_m, word.offset};
     for (std::size_t k = 0; k < m_.count; ++k) {
       const MCode& other = m_.codes[k];

@@ -86,6 +86,8 @@ class BlockWords {
   double radius_scale() const { return block_->haas && !radius_offsets_ ? 0.5 : 1.0; }
   /// As Block::spindle_codes.
   bool spindle_codes() const { return block_->spindle_codes; }
+  /// The block has the codes of LinuxCNC.
+  bool linuxcnc() const { return block_->table == CodeTable::linuxcnc; }
   /// As Block::called.
   std::uint32_t called() const { return block_->called; }
   /// As Block::lead_word and Block::thread.

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/codes.hpp"
 
-#include "language/block_handlers.hpp"
+#include "language/code_row.hpp"
 
 namespace trunnion::language {
 namespace {
-
-/// What a row names: a function of a handler, and what it is called with.
-template <auto handler, auto function, auto... arguments>
-Fault run(BlockHandlers& handlers, std::uint16_t at) {
-  return ((handlers.*handler).*function)(at, arguments...);
-}
 
 constexpr std::array rows = {
     GCode{0, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 0>,

@@ -22,6 +22,7 @@ enum class Group : std::uint8_t {
   plane,
   distance,
   arc_distance,
+  diameter,
   return_level,
   path_control,
   work_offset,
@@ -38,7 +39,7 @@ enum class Group : std::uint8_t {
   rotation,
   one_block,
 };
-inline constexpr std::size_t group_count = 22;
+inline constexpr std::size_t group_count = 23;
 
 /// Where a code comes from.
 enum class Origin : std::uint8_t {
@@ -57,6 +58,7 @@ enum class AxisWords : std::uint8_t {
   move,    ///< the code leaves them to the motion of the block
   taken,   ///< the code gives them a meaning of its own, so that the block moves nothing else
   shared,  ///< taken when there are any
+  passed,  ///< as move, and the code is carried out before a motion of the same block
 };
 
 struct BlockHandlers;

@@ -31,10 +31,14 @@ class ControlVariables final : public SystemVariables {
   void set_time(const ControlTime& time) { time_ = time; }
   void set_sequence_number(double number) { sequence_number_ = number; }
   void set_program_number(std::uint32_t number) { program_number_ = number; }
+  /// The line that is read, in the text that so many calls have led to.
+  void set_place(std::uint32_t line, std::size_t calls) { line_ = line, calls_ = calls; }
   /// Where G31 stopped, workpiece, mm and degrees.
   void set_skip_position(const AxisValues& position) { skip_position_ = position; }
   /// What #3901 shows until the program writes it.
   void set_parts(double parts) { parts_ = parts; }
+  /// It stopped at a contact (#5070 of LinuxCNC).
+  void set_skip_touched(bool touched) { skip_touched_ = touched; }
   /// As Interpreter::set_homed().
   void set_homed(std::optional<std::uint16_t> axes) { homed_ = axes; }
   /// Radii of tools are read and written as diameters.
@@ -70,6 +74,7 @@ class ControlVariables final : public SystemVariables {
   bool prints_blanks() const override { return environment_.prints_blanks(); }
   AlarmNumber read_external(std::uint32_t number, double& value) const override;
   Fault write_external(std::uint32_t number, double value) override;
+  AlarmNumber read_linuxcnc(LinuxcncValue which, std::uint32_t index, double& value) const override;
 
   /// Carries out what writing variables asked for since the last time: a message, a change of a table, an
   /// order for a spindle, a signal to the PLC.
@@ -77,6 +82,11 @@ class ControlVariables final : public SystemVariables {
 
  private:
   AlarmNumber modal(std::uint32_t number, double& result) const;
+  // Parameters of the LinuxCNC dialect (linuxcnc_variables.cpp).
+  AlarmNumber linuxcnc_place(LinuxcncValue which, std::uint32_t axis, double& value) const;
+  AlarmNumber linuxcnc_offset(std::uint32_t index, double& value) const;
+  AlarmNumber linuxcnc_tool(LinuxcncValue which, std::uint32_t axis, double& value) const;
+  AlarmNumber linuxcnc_mode(LinuxcncValue which, double& value) const;
   AlarmNumber homed(std::uint32_t axis, double& result) const;
   /// 1 when the axis of this address of a NUM control has no reference, else 0.
   AlarmNumber not_homed(std::uint32_t address, double& value) const;
@@ -114,10 +124,13 @@ class ControlVariables final : public SystemVariables {
   double hours_zero_ = 0;
   double sequence_number_ = 0;
   std::uint32_t program_number_ = 0;
+  std::uint32_t line_ = 0;
+  std::size_t calls_ = 0;
   bool modal_macro_ = false, needs_answer_ = false, diameters_ = false, tool_times_ = false;
   double answer_ = 0;  // to the newest call of a cycle
   double parts_ = 0;
   AxisValues skip_position_{};
+  bool skip_touched_ = false;
   std::optional<std::uint16_t> homed_ = 0x1ff;  // at the start, bit a for Axis a
   struct Request {
     VariableKind kind = VariableKind::message;

@@ -13,8 +13,6 @@ constexpr double smallest_peck = 0.001;  // mm
 constexpr std::uint32_t most_holes = 9999;
 constexpr std::uint32_t spindle_stop = 5;  // M5
 
-constexpr bool is_pecking(std::uint8_t cycle) { return cycle == 73 || cycle == 83; }
-
 }  // namespace
 
 void DrillingCycles::reset() {
@@ -264,8 +262,10 @@ Fault DrillingCycles::begin_holes() {
   HoleParameters& hole = state_.change_settings().cycle.hole;
   const CycleSettings settings = environment_.cycle_settings();
   hole.cycle = modal.cycle;
-  hole.retract = settings.retract;
-  hole.clearance = settings.clearance;
+  if (!hole.linuxcnc) {
+    hole.retract = settings.retract;
+    hole.clearance = settings.clearance;
+  }
   hole.return_to_initial = modal.return_to_initial;
   hole.restart = modal.spindle_direction == SpindleDirection::ccw ? 4 : 3;
   lead_ = modal.feed_mode == FeedMode::per_revolution ? modal.feed

@@ -22,6 +22,13 @@ class DrillingCycles : private BlockHandler {
   Fault drill_line(std::uint16_t at);    ///< G78
   Fault drill_grid(std::uint16_t at);    ///< G79
 
+  /// Holes of the words in ProgramSettings::cycle, the first at `first` in the plane, each `step` on from the
+  /// one before.
+  Fault drill(HolePattern::Point first, HolePattern::Point step, std::uint32_t count) {
+    pattern_.line(first, step, count);
+    return begin_holes();
+  }
+
   /// Tapping has stopped the spindle. When another code has ended the cycle it turns again as before, unless
   /// the program has commanded it otherwise meanwhile.
   void restart_spindle();

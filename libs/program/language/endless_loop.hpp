@@ -18,8 +18,9 @@ class TextSource;
 struct ReadingPlace {
   struct Level {
     const TextSource* source = nullptr;
-    std::uint64_t offset = 0;     ///< of the next line, of a caller the line behind the call
-    std::uint32_t remaining = 0;  ///< repetitions of the program after this one
+    std::uint64_t offset = 0;       ///< of the next line, of a caller the line behind the call
+    std::uint32_t remaining = 0;    ///< repetitions of the program after this one
+    std::uint64_t repetitions = 0;  ///< OpenStructures::repetitions()
     bool operator==(const Level&) const = default;
   };
   std::array<Level, max_nesting + 1> levels{};  ///< the main program first

@@ -51,7 +51,7 @@ void HoleCycle::add_whole_hole() {
       add(Kind::tap, p_.z);
       add_dwell();
       add(Kind::tap, p_.r, 1);
-      add_dwell();
+      if (!p_.linuxcnc) add_dwell();
       add_return();
       return;
     case 76:
@@ -84,7 +84,9 @@ void HoleCycle::add_whole_hole() {
   if (p_.cycle != 81 && p_.cycle != 85) add_dwell();
   if (p_.cycle == 86 || p_.cycle == 88) add(Kind::auxiliary, 0, stop);
   if (p_.cycle == 88) add(Kind::auxiliary, 0, 0);
-  if (p_.cycle == 85 || p_.cycle == 89) {
+  if (p_.cycle == 89 && p_.linuxcnc) {
+    add(Kind::feed, out);
+  } else if (p_.cycle == 85 || p_.cycle == 89) {
     add(Kind::feed, p_.r);
     add_return();
   } else {

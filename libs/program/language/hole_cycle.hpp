@@ -9,6 +9,8 @@ namespace trunnion::language {
 
 /// G74, G84: Q pecks, J the axis.
 constexpr bool is_tapping(std::uint8_t cycle) { return cycle == 74 || cycle == 84; }
+/// G73, G83: Q pecks.
+constexpr bool is_pecking(std::uint8_t cycle) { return cycle == 73 || cycle == 83; }
 /// G76, G87: Q or I J K the shift.
 constexpr bool is_shifting(std::uint8_t cycle) { return cycle == 76 || cycle == 87; }
 
@@ -43,6 +45,7 @@ struct HoleParameters {
   double least_peck = 0;      ///< mm, of pecks that get smaller
   double between_outs = 0;    ///< mm of G73 behind which the tool goes out to R (Haas K); 0 = it does not
   std::uint32_t restart = 3;  ///< M code that starts the spindle again: 3 or 4
+  bool linuxcnc = false;      ///< G89 goes out at feed all the way, tapping dwells at the bottom only
 };
 
 /// Gives the steps of a hole one after the other, the tool being above it. Allocates nothing, however many

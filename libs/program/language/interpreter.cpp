@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/interpreter.hpp"
 
+#include <cmath>
 #include <string_view>
 
 #include "language/computed_word.hpp"
@@ -8,6 +9,7 @@
 #include "language/haas_dialect.hpp"
 #include "language/iso_dialect.hpp"
 #include "language/iso_line.hpp"
+#include "language/linuxcnc_dialect.hpp"
 #include "language/num_dialect.hpp"
 #include "text/utf8.hpp"
 
@@ -23,13 +25,21 @@ void return_at_end(Block& block) {
     if (block.m[i].value == 2) block.m[i].value = 99;
 }
 
+/// The message of a block: what its reader has composed, or a part of its line.
+std::string_view shown_text(const Block& block, std::string_view line) {
+  if (block.text_size != 0) return {block.text.data(), block.text_size};
+  return line.substr(0, line.find_last_not_of(" \t") + 1).substr(block.message_at);
+}
+
 }  // namespace
 
 const Dialect& Interpreter::dialect_of(ProgramDialect name) {
   static const IsoDialect iso;
   static const NumDialect num;
+  static const LinuxcncDialect linuxcnc;
   static const HaasDialect haas;
   if (name == ProgramDialect::num) return num;
+  if (name == ProgramDialect::linuxcnc) return linuxcnc;
   if (name == ProgramDialect::haas) return haas;
   return iso;
 }
@@ -50,10 +60,12 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   if (beginning == Beginning::program) {
     control_.start();
     modal_calls_.clear();
+    kept_modes_[0].valid = kept_modes_[0].returns = false;
   }
   control_.forget_call();
   variables_.start(variables);
   control_.set_skip_position(variables_.skip_position());
+  if (beginning == Beginning::program) control_.set_skip_touched(false);
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
   code_calls_ = environment_.code_calls();
   calls_by_code_ = code_calls_ != CodeCalls{};
@@ -62,6 +74,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   depth_ = 0;
   found_.fill({});
   next_found_ = 0;
+  named_text_count_ = 0;
   jumps_.clear();
   blocks_ = lines_ = 0;
   message_size_ = 0;
@@ -71,6 +84,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   modal_calls_.leave(0);
   levels_[0] = CallLevel{};
   levels_[0].source = &text;
+  begins_program_ = beginning == Beginning::program;
   reader_.reset();
   state_ = read_head(text, 0, Heading::Then::start);
 }
@@ -121,7 +135,7 @@ bool Interpreter::repeats_for_ever() {
   for (std::size_t i = 0; i <= depth_; ++i) {
     const CallLevel& level = levels_[i];
     const TextPosition behind = i == depth_ ? reader_.position() : level.resume;
-    place.levels[i] = {level.source, behind.offset, level.remaining};
+    place.levels[i] = {level.source, behind.offset, level.remaining, level.open.repetitions()};
   }
   const std::uint32_t line = depth_ == 0 ? reader_.position().line : levels_[1].call_line;
   return watch_->returns(place, line, variables_, executor_.position(), executor_.modal());
@@ -138,8 +152,10 @@ Interpreter::State Interpreter::report_line_status(LineReader::Status status, St
 Alarm Interpreter::located(const Fault& fault, std::string_view line) {
   // Seen when the moves behind it are read, but its own.
   if (fault.number == AlarmNumber::compensation_interference) {
-    return make_alarm({fault.number, 0}, {}, levels_[depth_].program, executor_.interference().line,
-                      executor_.fault_detail(fault.number));
+    Alarm alarm = make_alarm({fault.number, 0}, {}, levels_[depth_].program, executor_.interference().line,
+                             executor_.fault_detail(fault.number));
+    alarm.file_name = file_name(alarm.program);
+    return alarm;
   }
   std::string_view detail = fault.number == AlarmNumber::spindle_without_mark
                                 ? std::string_view(control_.unmarked())
@@ -151,8 +167,10 @@ Alarm Interpreter::located(const Fault& fault, std::string_view line) {
     if (!detail.empty()) found.detail = nullptr;
   }
   Alarm alarm = make_alarm(found, line, levels_[depth_].program, line_, detail);
+  alarm.file_name = file_name(alarm.program);
   alarm.calls = static_cast<std::uint8_t>(depth_);
-  for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {levels_[i].program, levels_[i + 1].call_line};
+  for (std::size_t i = 0; i < depth_; ++i)
+    alarm.chain[i] = {levels_[i].program, levels_[i + 1].call_line, file_name(levels_[i].program)};
   return alarm;
 }
 
@@ -232,8 +250,13 @@ Interpreter::State Interpreter::head_line(Step& step) {
     case HeadLine::Kind::closed:
       break;
   }
-  const bool cycles = heading_.then == Heading::Then::search;
-  return head_ended(cycles ? ProgramDialect::iso : dialect_without_head(*heading_.source, environment_));
+  return head_ended(headless());
+}
+
+// Cycles are ISO, and only LinuxCNC has files that hold subroutines.
+ProgramDialect Interpreter::headless() const {
+  if (heading_.then != Heading::Then::search) return dialect_without_head(*heading_.source, environment_);
+  return call_.kind == CallKind::cycle ? ProgramDialect::iso : ProgramDialect::linuxcnc;
 }
 
 Interpreter::State Interpreter::head_ended(ProgramDialect dialect) {
@@ -250,6 +273,7 @@ Interpreter::State Interpreter::head_ended(ProgramDialect dialect) {
   }
   levels_[0].dialect = dialect;
   use_dialect(dialect);
+  if (begins_program_ && rules_.returns_to_r) executor_.return_to_r();
   reader_.seek(source, {});
   return State::running;
 }
@@ -257,10 +281,12 @@ Interpreter::State Interpreter::head_ended(ProgramDialect dialect) {
 // The alarm is in the text that would be entered.
 Interpreter::State Interpreter::fail_head(const HeadLine& head, std::uint32_t number, std::string_view line) {
   Alarm alarm = make_alarm({AlarmNumber::dialect_unknown, head.offset}, line, heading_.program, number);
+  alarm.file_name = file_name(heading_.program);
   const std::size_t calls = heading_.then == Heading::Then::start ? 0 : depth_ + 1;
   alarm.calls = static_cast<std::uint8_t>(calls);
   for (std::size_t i = 0; i < calls; ++i)
-    alarm.chain[i] = {levels_[i].program, i == depth_ ? call_line_ : levels_[i + 1].call_line};
+    alarm.chain[i] = {levels_[i].program, i == depth_ ? call_line_ : levels_[i + 1].call_line,
+                      file_name(levels_[i].program)};
   return fail(alarm);
 }
 
@@ -278,13 +304,13 @@ Interpreter::State Interpreter::run_line(Step& step) {
     }
     return execute(line);
   }
-  if (status == LineReader::Status::end) return end_of_text();
-  return report_line_status(status, step);
+  return status == LineReader::Status::end ? end_of_text() : report_line_status(status, step);
 }
 
 Interpreter::State Interpreter::execute(std::string_view line) {
   variables_.begin_line();
   control_.begin_line();
+  control_.set_place(line_, depth_);
   const State state = execute_block(line);
   if (!control_.needs_value()) control_.end_line();
   return state;
@@ -296,7 +322,8 @@ Interpreter::State Interpreter::execute_block(std::string_view line) {
     return level.started ? fail(fault, line) : pass_leader(fault, line);
   if (block_.skipped) return State::running;
   level.taped = block_.head == Head::tape_mark || (level.taped && block_.empty());
-  if (block_.head != Head::none && level.started) {
+  const bool goes_on = !rules_.heads_end_text && depth_ == 0 && block_.head == Head::program;
+  if (block_.head != Head::none && level.started && !goes_on) {
     // On other controls : is a main block in the middle of a program.
     if (is_colon_head(line)) return fail({AlarmNumber::colon_in_program, 0}, line);
     return end_of_text();
@@ -325,8 +352,7 @@ Interpreter::State Interpreter::execute_words(std::string_view line) {
   if (const Fault fault = carry_out_requests()) return fail(fault, line);
   if (rules_.text_ends_subprograms && depth_ != 0 && !block_.ends_program) return_at_end(block_);
   if (block_.message) {
-    const std::string_view shown = line.substr(0, line.find_last_not_of(" \t") + 1);
-    message_size_ = text::copy_readable(shown.substr(block_.message_at), message_);
+    message_size_ = text::copy_readable(shown_text(block_, line), message_);
   }
   if (calls_by_code_ && rules_.cycle_m_codes && !levels_[depth_].by_code) {
     if (const auto called = call_by_code(line)) return *called;
@@ -357,6 +383,7 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
     case Flow::Kind::end:
       return State::done;
     case Flow::Kind::go_back:
+      if (levels_[depth_].sub != 0) return fail({AlarmNumber::linuxcnc_sub_outside, flow.offset}, line);
       return return_from_subprogram(flow, line);
     case Flow::Kind::call:
       break;
@@ -374,12 +401,21 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
 }
 
 void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {
-  if (executor_.needs_position() && !executor_.homing()) {
+  const bool skipped = executor_.needs_position() && !executor_.homing();
+  const bool must_touch = skipped && executor_.state().needs_contact && !options_.assume_contact;
+  bool contact = options_.assume_contact;
+  if (skipped) {
+    for (std::size_t axis = 0; axis < axis_count; ++axis)
+      contact |= std::abs(touched[axis] - executor_.position()[axis]) > no_distance;
     executor_.set_position(touched);
-    variables_.set_skip_position(executor_.workpiece_position());
+    // LinuxCNC means what a word would give.
+    const bool linuxcnc = block_.table == CodeTable::linuxcnc;
+    variables_.set_skip_position(linuxcnc ? executor_.program_position() : executor_.workpiece_position());
     control_.set_skip_position(variables_.skip_position());
+    control_.set_skip_touched(contact);
   }
   executor_.set_position(position);
+  if (must_touch && !contact) state_ = fail({AlarmNumber::linuxcnc_no_contact, 0}, {});
 }
 
 void Interpreter::answer(double value) {
@@ -402,6 +438,7 @@ Interpreter::State Interpreter::end_of_text() {
     return fail({AlarmNumber::begin_without_end, 0}, {});
   }
   if (depth_ != 0 && rules_.text_ends_subprograms) return return_from_subprogram({}, {});
+  if (levels_[depth_].sub != 0) return fail({AlarmNumber::linuxcnc_sub_nested, 0}, {});
   if (depth_ != 0) return fail({AlarmNumber::subprogram_without_end, 0}, {});
   if (const Fault fault = executor_.end_program(0, levels_[0].program, line_, queue_)) return fail(fault, {});
   return State::done;

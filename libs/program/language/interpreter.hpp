@@ -36,6 +36,8 @@ enum class Step : std::uint8_t {
 struct InterpreterOptions {
   SkipLevels block_skip = 0;  ///< leave out blocks that begin with / (level 1) or /n of a level in it
   bool repeat = true;         ///< M99 in the main program begins it again, else it ends it
+  /// A skip move that ends where it was to end has touched there: nothing moves.
+  bool assume_contact = false;
 };
 
 /// Variables of a control that has never run a program.
@@ -55,7 +57,8 @@ inline constexpr VariableStore no_variables{};
 /// call. What the NUM dialect has instead is in num_dialect.hpp.
 ///
 /// Each text is read in its own dialect, its subprograms with it: that which its head names
-/// (head_dialect.hpp), else dialect_without_head(); USERDEF.CYC is ISO when its head names none.
+/// (head_dialect.hpp), else dialect_without_head(). When its head names none, USERDEF.CYC is ISO, and a file
+/// that an O word calls is LinuxCNC.
 class Interpreter {
  public:
   /// `environment` and `dialect` must outlive the interpreter. With a dialect every text is read in it.
@@ -155,7 +158,10 @@ class Interpreter {
   const BlockExecutor& executor() const { return executor_; }
 
   static const Dialect& dialect_of(ProgramDialect name);
-  static constexpr std::size_t longest_message = 96;
+  static constexpr std::size_t longest_message = longest_text;
+
+  /// Of a text from named_texts on that this program has called; else empty.
+  FileName file_name(std::uint32_t program) const;
 
  private:
   struct CallLevel {
@@ -174,8 +180,16 @@ class Interpreter {
     std::uint32_t label = 0;
     bool modal = false;  // called by G66
     ProgramDialect dialect = ProgramDialect::iso;
+    std::uint64_t sub = 0;        // the subroutine, 0: no O word has called it
+    bool defined = false;         // its definition was read
     std::size_t modal_above = 0;  // of ModalCalls::enter()
     OpenStructures open;
+  };
+  /// By M70 or M73 of LinuxCNC, at one level.
+  struct KeptModes {
+    SavedModes modes;
+    bool valid = false;
+    bool returns = false;  // at the end of the level
   };
   /// Where a call from one text leads, so that a long text is searched once and not at every call.
   struct Found {
@@ -188,6 +202,7 @@ class Interpreter {
     std::uint32_t program = 0;
     TextPosition top, home;
     ProgramDialect dialect = ProgramDialect::iso;
+    std::uint64_t name = 0;  // of a subroutine
   };
   enum class State : std::uint8_t { running, heading, searching, done, failed };
   enum class Purpose : std::uint8_t {
@@ -195,8 +210,11 @@ class Interpreter {
     label,    ///< a sequence number
     local,    ///< the sequence number at which a called part of the program begins
     branch,   ///< ELSEIF, ELSE or ENDIF of the innermost IF
-    end,      ///< the end of the innermost structure
-    leader,   ///< the % behind text that is no program
+    end,      ///< the line behind the end of a structure
+    last,     ///< the end of a structure
+    sub_end,  ///< the line behind the end of a subroutine
+    sub,      ///< the definition of one
+    leader,   ///< the % behind text that is no program; in no key()
   };
   /// State::heading: the head of a text is read for its dialect.
   struct Heading {
@@ -213,11 +231,14 @@ class Interpreter {
     Purpose purpose = Purpose::program;
     ProgramDialect dialect = ProgramDialect::iso;  // of the source
     TextSource* source = nullptr;
-    std::uint32_t wanted = 0;
-    TextPosition from;      // of the line that jumps
-    bool from_top = false;  // second half of the search for a label
-    bool heading = false;   // of a label from the top on: the head of the program has not been passed
-    std::size_t depth = 0;  // structures open at the jump
+    std::uint64_t wanted = 0;
+    TextPosition from;          // of the line that jumps
+    bool from_top = false;      // second half of the search for a label
+    bool heading = false;       // of a label from the top on: the head of the program has not been passed
+    bool begun = false;         // something before the line is no blank
+    bool in_file = false;       // the file of a subroutine
+    std::uint32_t program = 0;  // of the text in which a subroutine is looked for
+    std::size_t depth = 0;      // structures open where the search must arrive
     OpenStructures open;
   };
 
@@ -228,6 +249,8 @@ class Interpreter {
   /// The line may be text in front of the % with which a tape begins.
   bool passes_before_head(std::string_view line) const;
   State head_ended(ProgramDialect dialect);
+  /// The dialect of the text whose head is read, when it names none.
+  ProgramDialect headless() const;
   State fail_head(const HeadLine& head, std::uint32_t number, std::string_view line);
 
   State run_line(Step& step);
@@ -250,19 +273,35 @@ class Interpreter {
   State call_cycle(std::string_view line);
   State branch(bool condition, std::string_view line);
   State execute_rest(std::string_view line);
-  State jump(Purpose purpose, std::uint32_t wanted, TextPosition from, const Fault& in_vain,
-             std::string_view line);
-  State search(Purpose purpose, std::uint32_t wanted, TextPosition from);
+  static constexpr std::size_t innermost = static_cast<std::size_t>(-1);
+  /// `depth` counts the structure that the jump looks for the parts of.
+  State jump(Purpose purpose, std::uint64_t wanted, TextPosition from, const Fault& in_vain,
+             std::string_view line, std::size_t depth = innermost);
+  State search(Purpose purpose, std::uint64_t wanted, TextPosition from, std::size_t depth = innermost);
   State arrive(const JumpCache::Target& target);
   State search_line(Step& step);
   State pass_leader(const Fault& fault, std::string_view line);
   State pass_leader(const Leader& leader, TextPosition position);
   State label_found(TextPosition position);
-  bool structure_found(Statement statement) const;
+  bool structure_found(Statement statement, std::uint64_t named) const;
   State search_ended();
-  static std::uint64_t key(Purpose purpose, std::uint32_t wanted) {
-    return (std::uint64_t{wanted} << 3) | static_cast<std::uint64_t>(purpose);
+  static std::uint64_t key(Purpose purpose, std::uint64_t wanted) {
+    return (wanted << 3) | static_cast<std::uint64_t>(purpose);
   }
+  State repeat(std::string_view line);
+
+  // O words of LinuxCNC (interpreter_subs.cpp).
+  State call_sub(std::string_view line);
+  State begin_sub(std::string_view line);
+  State return_from_sub(std::string_view line);
+  State leave_loop(std::string_view line);
+  State change_modes(std::string_view line);
+  /// Restores what M73 has saved at this level.
+  Fault return_modes();
+  State search_sub(const Outline& outline, TextPosition position, std::string_view line);
+  State search_sub_elsewhere();
+  /// The file with the name of the called subroutine; null when there is none.
+  TextSource* find_file();
 
   State call_macro(Call& call, std::string_view line);
   Fault carry_out_beside(const Call& call);
@@ -297,6 +336,7 @@ class Interpreter {
   CodeCalls code_calls_;
   bool calls_by_code_ = false;
   std::array<CallLevel, max_nesting + 1> levels_{};
+  std::array<KeptModes, max_nesting + 1> kept_modes_{};
   std::size_t depth_ = 0;
   State state_ = State::done;
   Alarm alarm_;
@@ -310,6 +350,7 @@ class Interpreter {
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
   bool had_leader_ = false;   // of the started text
+  bool begins_program_ = false;
   Heading heading_;
   // A jump or a call that looks for its target, and the alarms if it is not found or not allowed.
   Search search_;
@@ -324,6 +365,10 @@ class Interpreter {
   TextPosition after_call_;
   std::uint32_t call_line_ = 0;
   ModalCalls modal_calls_;
+  std::array<char, 64> file_{};  // of the called subroutine
+  std::size_t file_size_ = 0;
+  std::array<FileName, 32> named_texts_{};
+  std::size_t named_text_count_ = 0;
   std::array<Found, 16> found_{};
   std::size_t next_found_ = 0;  // the entry the next search replaces
 };

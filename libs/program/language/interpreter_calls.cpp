@@ -132,15 +132,18 @@ Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
   const bool cycle = call.kind == CallKind::cycle;
   TextSource* const caller = levels_[depth_].source;
   for (const Found& known : found_) {
-    if (!known.local && known.caller == caller && known.number == call.number && known.cycle == cycle &&
-        (known.repetitions == 0 || !call.counted))
+    if (!known.local && known.caller == caller && known.number == call.number && known.name == call.name &&
+        known.cycle == cycle && (known.repetitions == 0 || !call.counted))
       return enter(known);
   }
   not_found_ = located({AlarmNumber::subprogram_missing, call.program_offset}, line);
   if (call.number == rules_.homing_program)
     not_allowed_ = located({AlarmNumber::num_homing_axis, call.program_offset}, line);
-  search_.purpose = Purpose::program;
-  search_.wanted = call.number;
+  const bool subroutine = call.kind == CallKind::subroutine;
+  search_.purpose = subroutine ? Purpose::sub : Purpose::program;
+  search_.wanted = subroutine ? call.name : call.number;
+  search_.begun = search_.in_file = false;
+  search_.program = levels_[depth_].program;
   search_.source = cycle ? environment_.subprogram(ProgramName(cycle_file).view()) : caller;
   search_.dialect = dialect_name_;
   if (search_.source == nullptr) return fail(not_found_);
@@ -165,7 +168,8 @@ Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program,
            program,
            top,
            local ? levels_[depth_].home : top,
-           dialect};
+           dialect,
+           call_.name};
   return enter(entry);
 }
 
@@ -184,11 +188,15 @@ Interpreter::State Interpreter::enter(const Found& target) {
   level.modal = call_.kind == CallKind::modal_macro || call_.kind == CallKind::block_macro;
   level.dialect = target.dialect;
   use_dialect(level.dialect);
+  level.sub = call_.name;
+  level.defined = false;
   level.open.clear();
   level.by_code = levels_[depth_ - 1].by_code || call_.by_code;
   level.from_label = call_.from_label;
   level.label = call_.label;
+  kept_modes_[depth_].valid = kept_modes_[depth_].returns = false;
   if (level.own_variables) variables_.enter(arguments_);
+  variables_.names().enter();
   if (level.modal) level.modal_above = modal_calls_.enter();
   return begin_program();
 }
@@ -236,14 +244,19 @@ Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::st
     if (const Fault fault = executor_.end_program(0, level.program, line_, queue_)) return fail(fault, line);
     return State::done;
   }
+  if (depth_ != 0) {
+    if (const Fault fault = return_modes()) return fail(fault, line);
+  }
   if (depth_ == 0 || level.remaining > 0) {
     if (depth_ != 0) --level.remaining;
     level.started = false;
     level.open.clear();
     if (level.own_variables) variables_.repeat();
+    if (depth_ != 0) variables_.names().again();
     return begin_program();
   }
   if (level.own_variables) variables_.leave();
+  variables_.names().leave();
   if (level.modal) modal_calls_.leave(level.modal_above);
   // The alarm of a label that is not there belongs to the M99 that names it.
   if (flow.to_label) {

@@ -17,7 +17,7 @@ constexpr std::uint64_t longest_leader = 16384;
 Interpreter::State Interpreter::run_statement(std::string_view line) {
   CallLevel& level = levels_[depth_];
   const Fault in_vain{AlarmNumber::begin_without_end, block_.at};
-  const Statement statement = block_.statement;
+  const Statement statement = level.open.meaning(block_.statement, block_.key());
   switch (statement) {
     case Statement::none:
       return State::running;
@@ -34,11 +34,27 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
     case Statement::print:
       if (const Fault fault = executor_.print(level.program, line_, queue_)) return fail(fault, line);
       return State::running;
+    case Statement::call_sub:
+      return call_sub(line);
+    case Statement::begin_sub:
+      return begin_sub(line);
+    case Statement::end_sub:
+    case Statement::return_sub:
+      return return_from_sub(line);
+    case Statement::break_loop:
+    case Statement::continue_loop:
+      return leave_loop(line);
+    case Statement::modal_state:
+      return change_modes(line);
+    case Statement::end_repeat:
+      if (!level.open.runs_again(block_.key())) break;
+      reader_.seek(*level.source, level.open.top().body);
+      return State::running;
     default:
       break;
   }
   const TextPosition begin = level.open.size() != 0 ? level.open.top().begin : TextPosition{};
-  const AlarmNumber alarm = level.open.pass(statement, block_.label, position_);
+  const AlarmNumber alarm = level.open.pass(statement, block_.key(), position_);
   if (alarm != AlarmNumber::none) return fail({alarm, block_.at}, line);
   switch (statement) {
     case Statement::begin_if:
@@ -64,9 +80,21 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
       // The beginning is read again: its condition decides.
       reader_.seek(*level.source, begin);
       return State::running;
+    case Statement::end_until:
+      if (block_.condition) reader_.seek(*level.source, begin);
+      return State::running;
+    case Statement::begin_repeat:
+      return repeat(line);
     default:
       return State::running;
   }
+}
+
+Interpreter::State Interpreter::repeat(std::string_view line) {
+  const auto times = static_cast<std::uint32_t>(block_.arguments[0].number);
+  if (times == 0) return jump(Purpose::end, 0, position_, {AlarmNumber::begin_without_end, block_.at}, line);
+  levels_[depth_].open.repeat(times, reader_.position());
+  return State::running;
 }
 
 Interpreter::State Interpreter::branch(bool condition, std::string_view line) {
@@ -81,23 +109,24 @@ Interpreter::State Interpreter::execute_rest(std::string_view line) {
   return State::running;
 }
 
-Interpreter::State Interpreter::jump(Purpose purpose, std::uint32_t wanted, TextPosition from,
-                                     const Fault& in_vain, std::string_view line) {
+Interpreter::State Interpreter::jump(Purpose purpose, std::uint64_t wanted, TextPosition from,
+                                     const Fault& in_vain, std::string_view line, std::size_t depth) {
   const JumpCache::Target* const known =
       jumps_.find(levels_[depth_].source, from.offset, key(purpose, wanted));
   if (known != nullptr) return arrive(*known);
   char label[16] = "";
   Fault fault = in_vain;
   if (purpose == Purpose::label || purpose == Purpose::local) {
-    std::snprintf(label, sizeof label, "N%u", wanted);
+    std::snprintf(label, sizeof label, "N%u", static_cast<unsigned>(wanted));
     fault.detail = label;
   }
   not_found_ = located(fault, line);
   not_allowed_ = located({AlarmNumber::jump_into_structure, in_vain.offset}, line);
-  return search(purpose, wanted, from);
+  return search(purpose, wanted, from, depth);
 }
 
-Interpreter::State Interpreter::search(Purpose purpose, std::uint32_t wanted, TextPosition from) {
+Interpreter::State Interpreter::search(Purpose purpose, std::uint64_t wanted, TextPosition from,
+                                       std::size_t depth) {
   const CallLevel& level = levels_[depth_];
   search_.purpose = purpose;
   search_.source = level.source;
@@ -105,7 +134,8 @@ Interpreter::State Interpreter::search(Purpose purpose, std::uint32_t wanted, Te
   search_.wanted = wanted;
   search_.from = from;
   search_.from_top = search_.heading = false;
-  search_.depth = level.open.size();
+  search_.begun = true;
+  search_.depth = depth == innermost ? level.open.size() : depth;
   search_.open = level.open;
   return State::searching;
 }
@@ -131,6 +161,8 @@ Interpreter::State Interpreter::search_line(Step& step) {
   }
   const Dialect& dialect = search_.dialect == dialect_name_ ? *dialect_ : dialect_of(search_.dialect);
   const Outline outline = dialect.outline(line, options_.block_skip);
+  if (search_.purpose == Purpose::sub || search_.purpose == Purpose::sub_end)
+    return search_sub(outline, position, line);
   if (search_.purpose == Purpose::program) {
     if (outline.head != Head::program || outline.program_number != search_.wanted) return State::searching;
     const bool cycle = call_.kind == CallKind::cycle;
@@ -145,15 +177,17 @@ Interpreter::State Interpreter::search_line(Step& step) {
     if (outline.sequence_number == search_.wanted) return label_found(position);
   } else {
     if (outline.head != Head::none) return search_ended();
-    if (search_.open.size() == search_.depth && structure_found(outline.statement)) {
+    if (search_.open.size() == search_.depth &&
+        structure_found(search_.open.meaning(outline.statement, outline.key()), outline.key())) {
       // The jump passes the line, so nothing else reads what is behind its word.
       if (outline.behind) {
         line_ = position.line;
         return fail(outline.behind, line);
       }
       JumpCache::Target target{reader_.position(), search_.depth - 1, false, search_.open.divided()};
+      if (search_.purpose == Purpose::last) target = {position, search_.depth, false, search_.open.divided()};
       if (outline.statement == Statement::else_) {
-        search_.open.pass(outline.statement, outline.label, position);
+        search_.open.pass(outline.statement, outline.key(), position);
         target.open = search_.depth;
         target.divided = search_.open.divided();
       }
@@ -163,7 +197,7 @@ Interpreter::State Interpreter::search_line(Step& step) {
       return arrive(target);
     }
   }
-  const AlarmNumber alarm = search_.open.pass(outline.statement, outline.label, position);
+  const AlarmNumber alarm = search_.open.pass(outline.statement, outline.key(), position);
   if (alarm == AlarmNumber::none) return State::searching;
   line_ = position.line;
   return fail({alarm, 0}, {});
@@ -188,7 +222,7 @@ Interpreter::State Interpreter::pass_leader(const Fault& fault, std::string_view
 }
 
 bool Interpreter::passes_before_head(std::string_view line) const {
-  const Dialect& dialect = dialect_of(dialect_without_head(*heading_.source, environment_));
+  const Dialect& dialect = dialect_of(headless());
   return reader_.position().offset <= longest_leader && dialect.leader(line).passes;
 }
 
@@ -202,7 +236,8 @@ Interpreter::State Interpreter::pass_leader(const Leader& leader, TextPosition p
   return State::running;
 }
 
-bool Interpreter::structure_found(Statement statement) const {
+bool Interpreter::structure_found(Statement statement, std::uint64_t named) const {
+  if (!search_.open.top().has(named)) return false;
   const Statement begin = search_.open.top().kind;
   switch (statement) {
     case Statement::else_if:
@@ -214,6 +249,10 @@ bool Interpreter::structure_found(Statement statement) const {
       return begin == Statement::begin_while;
     case Statement::end_do:
       return begin == Statement::begin_do;
+    case Statement::end_repeat:
+      return begin == Statement::begin_repeat;
+    case Statement::end_until:
+      return begin == Statement::begin_until;
     default:
       return false;
   }
@@ -232,6 +271,7 @@ Interpreter::State Interpreter::label_found(TextPosition position) {
 }
 
 Interpreter::State Interpreter::search_ended() {
+  if (search_.purpose == Purpose::sub) return search_sub_elsewhere();
   if (search_.purpose == Purpose::program && call_.kind != CallKind::cycle) {
     TextSource* const other = environment_.subprogram(ProgramName(call_.number).view());
     if (other != nullptr) return read_head(*other, call_.number, Heading::Then::enter);

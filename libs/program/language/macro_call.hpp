@@ -15,6 +15,8 @@ namespace trunnion::language {
 /// The program a Command, an alarm or a call names: 0 the started one, n the text O000n, and this one the
 /// file of canned cycles.
 inline constexpr std::uint32_t cycle_file = 1000000000;
+/// The first of the files that the started program calls by a name (LinuxCNC): Interpreter::file_name().
+inline constexpr std::uint32_t named_texts = 3000000000;
 
 /// What each tenth adds to the number of a program of the NUM dialect: %9990.9 is 900009990.
 inline constexpr std::uint32_t program_tenth = 100000000;
@@ -38,6 +40,7 @@ enum class CallKind : std::uint8_t {
   modal_cancel,  ///< G67
   cycle,         ///< G1000..G1999 or a user M code: a level of its own, letter A is #0 .. Z is #25
   control,       ///< a macro of the control carries the code out: as macro, also with L, P and the code
+  subroutine,    ///< o<name> call of LinuxCNC: a level of its own, #1 to #30 by their place
 };
 
 /// What G12 and G13, and G37 call: no number that part programs usually have.
@@ -84,6 +87,7 @@ inline constexpr std::array call_codes = {
 struct Call {
   CallKind kind = CallKind::subprogram;
   std::uint32_t number = 0;  ///< of the program
+  std::uint64_t name = 0;    ///< of the subroutine, as Block::name
   std::uint32_t repetitions = 1;
   bool counted = true;               ///< L was given, or no number can hold the repetitions
   std::uint16_t code = 0;            ///< tenths, of kind control

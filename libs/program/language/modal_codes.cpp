@@ -37,6 +37,8 @@ Fault ModalCodes::set_feed_mode(std::uint16_t, FeedMode mode) {
 
 // A code that gives the axis words a meaning of its own, or a cycle, moves at feed.
 bool ModalCodes::takes_lead() const {
+  // Its threads have their lead in K.
+  if (words_.linuxcnc()) return false;
   const GCodes& g = words_.g();
   if (g.has(Group::one_block) && g.code(Group::one_block).axis_words == AxisWords::taken) return false;
   if (g.has(Group::motion))
@@ -66,7 +68,9 @@ Fault ModalCodes::feed_word() {
   const double feed = words_.value('F');
   if (!(feed > 0)) return {AlarmNumber::feed_not_positive, words_.offset('F')};
   const bool time = state_.modal.feed_mode == FeedMode::inverse_time;
-  state_.modal.feed = time ? feed : feed * words_.length_scale();
+  // LinuxCNC takes F before the units of its block.
+  const bool metric = words_.linuxcnc() ? state_.at_block_begin().modal.metric : state_.modal.metric;
+  state_.modal.feed = time || metric ? feed : feed * 25.4;
   return {};
 }
 
@@ -123,8 +127,10 @@ Fault ModalCodes::spindle_word() {
                                                  : words_.offset('S');
     };
     if (!(modal.surface_speed > 0)) return {AlarmNumber::surface_speed_missing, at()};
-    // At the centre of the spindle its speed would be beyond all measure.
-    if (!(speed_limit(modal) > 0)) return {AlarmNumber::surface_speed_limit, at()};
+    // At the centre of the spindle its speed would be beyond all measure. LinuxCNC has the limit of the
+    // machine, and there may be no machine.
+    const bool unknown = words_.linuxcnc() && environment_.m_functions() == nullptr;
+    if (!(speed_limit(modal) > 0) && !unknown) return {AlarmNumber::surface_speed_limit, at()};
   }
   const bool limited = surface && modal.spindle_limit != before.spindle_limit;
   if (speed_given || changes || limited)

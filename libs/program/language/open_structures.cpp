@@ -1,40 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "language/open_structures.hpp"
 
+#include "language/name_key.hpp"
+
 namespace trunnion::language {
 
-AlarmNumber OpenStructures::pass(Statement statement, std::uint32_t label, TextPosition position) {
+AlarmNumber OpenStructures::pass(Statement statement, std::uint64_t key, TextPosition position) {
   bool fits = true;
-  switch (statement) {
+  switch (meaning(statement, key)) {
     case Statement::none:
     case Statement::assignment:
     case Statement::go_to:
     case Statement::call_cycle:
+    case Statement::print:
+    case Statement::begin_sub:
+    case Statement::end_sub:
+    case Statement::return_sub:
+    case Statement::call_sub:
+    case Statement::break_loop:
+    case Statement::continue_loop:
+    case Statement::modal_state:
       return AlarmNumber::none;
     case Statement::begin_if:
     case Statement::begin_while:
     case Statement::begin_do:
+    case Statement::begin_repeat:
+    case Statement::begin_until:
       if (size_ == max_structures) return AlarmNumber::structure_too_deep;
-      open_[size_++] = {statement, label, position};
+      open_[size_++] = {statement, key, position};
       return AlarmNumber::none;
     case Statement::else_if:
     case Statement::else_:
-      if (!inside(Statement::begin_if)) return AlarmNumber::end_without_begin;
+      if (!ends(Statement::begin_if, key)) return AlarmNumber::end_without_begin;
       if (statement == Statement::else_) open_[size_ - 1].divided = true;
       return AlarmNumber::none;
     case Statement::end_if:
-      fits = inside(Statement::begin_if);
+      fits = ends(Statement::begin_if, key);
       break;
     case Statement::end_while:
-      fits = inside(Statement::begin_while);
+      fits = ends(Statement::begin_while, key);
       break;
     case Statement::end_do:
-      fits = inside(Statement::begin_do) && top().label == label;
+      fits = inside(Statement::begin_do) && top().key == key;
+      break;
+    case Statement::end_repeat:
+      fits = ends(Statement::begin_repeat, key);
+      break;
+    case Statement::end_until:
+      fits = ends(Statement::begin_until, key);
       break;
   }
   if (!fits) return AlarmNumber::end_without_begin;
   --size_;
   return AlarmNumber::none;
+}
+
+bool OpenStructures::runs_again(std::uint64_t key) {
+  if (!ends(Statement::begin_repeat, key) || top().remaining == 0) return false;
+  --open_[size_ - 1].remaining;
+  return true;
+}
+
+std::uint64_t OpenStructures::repetitions() const {
+  std::uint64_t all = 0;
+  for (std::size_t i = 0; i < size_; ++i)
+    if (open_[i].kind == Statement::begin_repeat) all = mixed(all ^ (open_[i].remaining + 1));
+  return all;
+}
+
+std::size_t OpenStructures::find_loop(std::uint64_t key) const {
+  for (std::size_t i = size_; i-- > 0;) {
+    const bool loop = open_[i].kind == Statement::begin_while || open_[i].kind == Statement::begin_until;
+    if (loop && open_[i].key == key) return i;
+  }
+  return size_;
 }
 
 void OpenStructures::cut(std::size_t size, std::uint16_t divided) {

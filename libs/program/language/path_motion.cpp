@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "language/arc_geometry.hpp"
 
@@ -15,6 +16,16 @@ constexpr double no_height = 1e-9;
 constexpr std::uint32_t most_turns = 9999;
 /// Of the speed of an axis: it must be able to follow a spindle that turns somewhat faster than S.
 constexpr double thread_share = 0.95;
+
+/// What LinuxCNC allows half the chord above a radius R, mm.
+constexpr double linuxcnc_radius = 0.00127;
+
+/// What LinuxCNC allows between the radii of an arc, mm, of which the one at the start is `radius`: a part in
+/// a thousand, but between a hundredth and the whole of 2.83 mm, or 7.18 mm in inches.
+double linuxcnc_deviation(bool metric, double radius) {
+  const double most = metric ? 2 * std::numbers::sqrt2 : 0.2 * std::numbers::sqrt2 * 25.4;
+  return std::clamp(0.001 * radius, most / 100, most);
+}
 
 }  // namespace
 
@@ -196,6 +207,16 @@ Fault PathMotion::cut_thread() {
   return output_.move_straight(move, target);
 }
 
+Fault PathMotion::thread_to(std::uint16_t at, double lead, const AxisValues& target, bool begins) {
+  state_.thread_lead = lead;
+  if (const Fault fault = check_thread(at)) return fault;
+  StraightMove move{CommandKind::thread};
+  move.value = lead;
+  move.number = begins ? 1 : 0;
+  if (const Fault fault = check_lead(at, state_.command_from_program(target), move)) return fault;
+  return output_.move_straight(move, target);
+}
+
 // On the pitch line the spindle has the taught angle where the axis with the lead is at the taught place.
 Fault PathMotion::resume_thread(const AxisValues& target, double& start_angle) {
   const AxisValues end = state_.command_from_program(target);
@@ -294,6 +315,11 @@ Fault PathMotion::read_corner(std::optional<Corner>& corner) {
 Fault PathMotion::set_turns(const AxisValues& target, Arc& arc) {
   const std::uint8_t normal = plane_axes(arc.plane).normal;
   const char lead_letter = static_cast<char>('I' + normal);
+  if (words_.linuxcnc()) {
+    // LinuxCNC has no meaning for the word; posts that write all three letters write 0.
+    if (words_.has(lead_letter) && words_.value(lead_letter) == 0) words_.use(lead_letter);
+    return {};
+  }
   if (!words_.has(lead_letter) || (state_.modal.tool_vector && words_.has('R'))) return {};
   // The third centre letter is the lead of a helix: how far it goes in a turn, hence how many turns. Posts
   // that write all three letters write 0, which says nothing, also of an arc in the plane.
@@ -328,6 +354,7 @@ Fault PathMotion::find_circle(const AxisValues& target, std::uint16_t& at, Arc& 
   const bool absolute = state_.modal.absolute_centres;
   std::array<double, 3> centre_offset{};
   bool centre = false;
+  const bool linuxcnc = words_.linuxcnc();
   char absent = '\0';
   for (const std::uint8_t axis : {plane.first, plane.second}) {
     const char letter = static_cast<char>('I' + axis);
@@ -341,21 +368,25 @@ Fault PathMotion::find_circle(const AxisValues& target, std::uint16_t& at, Arc& 
   }
   if (absolute && centre && absent != '\0') return {AlarmNumber::missing_word, at, needs(absent)};
   std::uint32_t turns = 1;
-  if (words_.has('L')) {
-    if (const Fault fault = words_.whole_number('L', 1, most_turns, turns)) return fault;
+  const char turn_letter = linuxcnc ? 'P' : 'L';
+  if (words_.has(turn_letter)) {
+    if (const Fault fault = words_.whole_number(turn_letter, 1, most_turns, turns)) return fault;
   }
   if (words_.has('R')) {
     at = words_.offset('R');
     const double radius = words_.length('R');
     if (centre) return {AlarmNumber::arc_centre_and_radius, at};
-    return {arc_from_radius(start, target, radius, turns, radius_deviation_, arc), at};
+    const double deviation = linuxcnc ? linuxcnc_radius : radius_deviation_;
+    return {arc_from_radius(start, target, radius, turns, deviation, arc), at};
   }
   if (!centre) {
     const bool modal = !words_.g().has(Group::motion);
     return {AlarmNumber::arc_centre_missing, at,
             modal ? "R, I, J and K hold for their block alone" : nullptr};
   }
-  const AlarmNumber number = arc_from_centre(start, target, centre_offset, turns, radius_deviation_, arc);
+  const double radius = std::hypot(centre_offset[plane.first], centre_offset[plane.second]);
+  const double deviation = linuxcnc ? linuxcnc_deviation(state_.modal.metric, radius) : radius_deviation_;
+  const AlarmNumber number = arc_from_centre(start, target, centre_offset, turns, deviation, arc);
   if (number == AlarmNumber::arc_radii_differ) note_radii(target, arc);
   return {number, at};
 }

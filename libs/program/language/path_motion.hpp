@@ -16,14 +16,18 @@ class PathMotion : private BlockHandler {
   /// The move that the modal motion code and the words of the block mean, if any.
   Fault move();
 
+  /// A straight thread to `target` (program coordinates), `lead` mm per revolution of the axis that goes
+  /// farthest. It begins at the index mark or continues the thread before it.
+  Fault thread_to(std::uint16_t at, double lead, const AxisValues& target, bool begins);
+  /// What the program has set allows a thread of ProgramState::thread_lead.
+  Fault check_thread(std::uint16_t at) const;
+
  private:
   /// G33 and G34.
   Fault cut_thread();
   /// The start angle of a thread to `target` that is in phase with the one that J, EX or EZ and EC describe
   /// (NUM).
   Fault resume_thread(const AxisValues& target, double& start_angle);
-  /// What the program has set allows a thread.
-  Fault check_thread(std::uint16_t at) const;
   /// The lead over the whole way to `target`, in the frame of the commands.
   Fault check_lead(std::uint16_t at, const AxisValues& target, const StraightMove& move);
   /// In contour coordinates.

@@ -15,6 +15,7 @@ constexpr std::array rotary_axes = {A, B, C, U, V, W};  // U V W may turn the to
 // A cycle takes over the words of the one before (Fanuc B-64484EN-2, 5.1), and comes back to the level before
 // the first of them. A peck of drilling is none of tapping, nor a shift.
 void CycleWords::begin(std::uint8_t before, std::uint8_t cycle, double level) {
+  hole.linuxcnc = false;
   if (before == 80) {
     *this = CycleWords{};
     hole.initial = level;

@@ -15,9 +15,31 @@
 
 namespace trunnion::language {
 
+/// As BlockState::own_motion behind G80 of LinuxCNC: axis words need a code.
+inline constexpr std::uint16_t no_motion = 800;
+/// Bits of BlockState::coolant.
+inline constexpr std::uint8_t mist_on = 1, flood_on = 2;
+
+/// Words of a canned cycle as LinuxCNC keeps them, mm and seconds; in G91 they are increments.
+struct LinuxcncCycleWords {
+  double initial = 0;  ///< level before the first cycle, program coordinates
+  double depth = 0;
+  double retract = 0;
+  double peck = 0;
+  double dwell = 0;
+};
+
+/// What LinuxCNC adds to a coordinate system.
+struct LinuxcncFrame {
+  AxisValues shift{};                 ///< of G52 and G92, mm and degrees, in axes that the rotation turns
+  bool shifted = false;               ///< it acts: G92.2 only suspends it
+  std::array<double, 9> rotations{};  ///< of G54 .. G59.3 about Z, degrees
+};
+
 /// The words of a canned cycle, which stay until G80 or a motion code.
 struct CycleWords {
   HoleParameters hole;
+  LinuxcncCycleWords linuxcnc;
   bool has_depth = false;
   bool has_r = false;
   bool has_q = false;              ///< of pecks, 0 too
@@ -41,6 +63,7 @@ struct ProgramSettings {
   /// With a setting error (G54.4): the rotary axes of the position as the words have them, in the frame of
   /// the commands; those of the position stand so that the tool has that direction in the workpiece as it is.
   AxisValues drawn_rotary{};
+  LinuxcncFrame linuxcnc;
 };
 
 /// Everything a block can change and a faulty one must not have changed: what is copied at the beginning of
@@ -54,6 +77,9 @@ struct BlockState {
   bool needs_position = false;    ///< a skip move (G31) or a search for references (G28.2) was given out
   bool homing = false;            ///< it is the search
   std::uint16_t homed = 0;        ///< axes named by the searches so far, bit a for Axis a
+  bool needs_contact = false;     ///< the skip move has failed without one (G38.2)
+  std::uint16_t own_motion = 0;   ///< motion code that only LinuxCNC has, in tenths; 0: modal.motion acts
+  std::uint8_t coolant = 0;       ///< what a LinuxCNC program has switched on: mist_on, flood_on
   double thread_lead = 0;         ///< F of G33 and G34, mm per revolution; 0 = none yet
   SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
   std::uint8_t machining_mode = 0;  ///< of G5.1 and its like: ModalState::smoothing but for G61.1

@@ -22,13 +22,18 @@ class TableCodes : private BlockHandler {
   Fault write_work_offset(std::uint8_t index, std::size_t axis, double value);
   Fault write_tool(Table table, std::uint16_t number, double value);
 
+  /// The same for a block that means something else by its words.
+  void store_work_offset(std::uint8_t index, const AxisValues& values);
+  Fault set_tool(Table table, std::uint16_t number, double value, std::uint16_t at) {
+    return store_tool(table, number, value, false, at);
+  }
+
  private:
   Fault change_work_offset(std::uint16_t at, std::uint32_t l);
   Fault change_setting_error(std::uint16_t at);
   Fault change_tool(std::uint16_t at, std::uint32_t l);
   Fault define_tool(std::uint16_t at);
   Fault change_parameter(char number_letter);
-  void store_work_offset(std::uint8_t index, const AxisValues& values);
   /// Words are in a frame with this row of the table.
   bool acts(std::uint8_t index) const {
     const std::uint8_t error = state_.frame().setting_error().number;

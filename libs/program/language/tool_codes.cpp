@@ -19,7 +19,7 @@ Fault ToolCodes::set_length(std::uint16_t at, LengthUse use) {
 
 // H alone exchanges the length that counts; H0 takes it away, and without one there is nothing to take.
 Fault ToolCodes::length_word() {
-  if (!words_.has('H')) return {};
+  if (!words_.has('H') || words_.linuxcnc()) return {};
   const ModalState& modal = state_.modal;
   const bool on = modal.tip_control() || modal.length_offset != 0;
   if (!on && words_.value('H') != 0) return {};
@@ -28,7 +28,6 @@ Fault ToolCodes::length_word() {
 }
 
 Fault ToolCodes::choose_length(std::uint16_t at, const Length& use) {
-  ModalState& modal = state_.modal;
   std::uint32_t h = 0;
   double length = 0;
   if (use.off) {
@@ -42,8 +41,17 @@ Fault ToolCodes::choose_length(std::uint16_t at, const Length& use) {
       if (use.subtract) length = -length;
     }
   }
+  return use_length(at, use, static_cast<std::uint16_t>(h), length);
+}
+
+Fault ToolCodes::put_length(std::uint16_t at, std::uint16_t number, double length) {
+  return use_length(at, {}, number, length);
+}
+
+Fault ToolCodes::use_length(std::uint16_t at, const Length& use, std::uint16_t number, double length) {
+  ModalState& modal = state_.modal;
   const bool same = use.transformation == modal.transformation && use.plane_only == modal.plane_only &&
-                    h == modal.length_offset && length == modal.tool_length &&
+                    number == modal.length_offset && length == modal.tool_length &&
                     use.vector == modal.tool_vector;
   if (same) return {};
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
@@ -53,7 +61,7 @@ Fault ToolCodes::choose_length(std::uint16_t at, const Length& use) {
   modal.transformation = use.transformation;
   modal.plane_only = use.plane_only;
   modal.tool_vector = use.vector;
-  modal.length_offset = static_cast<std::uint16_t>(h);
+  modal.length_offset = number;
   modal.tool_length = length;
   state_.locate(position);
   output_.push(CommandKind::transformation);
@@ -90,8 +98,22 @@ Fault ToolCodes::set_cutter_side(std::uint16_t at, CutterSide side) {
   return compensate(at, true);
 }
 
+Fault ToolCodes::compensate_with(std::uint16_t at, CutterSide side, std::uint16_t number) {
+  state_.modal.radius_offset = number;
+  state_.modal.cutter_side = side;
+  return compensate(at, true);
+}
+
+void ToolCodes::compensate_by(CutterSide side, double radius) {
+  ModalState& modal = state_.modal;
+  modal.radius_offset = 0;
+  modal.cutter_side = side;
+  output_.compensation().request(side, radius, modal.plane,
+                                 state_.frame().contour_from_program(state_.program_position));
+}
+
 Fault ToolCodes::radius_word() {
-  if (!words_.has('D')) return {};
+  if (!words_.has('D') || words_.linuxcnc()) return {};
   std::uint32_t d = 0;
   if (const Fault fault = words_.whole_number('D', 0, highest_tool, d)) return fault;
   state_.modal.radius_offset = static_cast<std::uint16_t>(d);

@@ -24,7 +24,13 @@ class ToolCodes : private BlockHandler {
   Fault set_length(std::uint16_t at, LengthUse use);
   Fault set_cutter_side(std::uint16_t at, CutterSide side);
 
-  /// H and D without a code.
+  /// Tool length compensation of `length` mm along Z, shown as that of entry `number`.
+  Fault put_length(std::uint16_t at, std::uint16_t number, double length);
+  /// Cutter radius compensation with the radius of entry `number`, or with `radius` mm.
+  Fault compensate_with(std::uint16_t at, CutterSide side, std::uint16_t number);
+  void compensate_by(CutterSide side, double radius);
+
+  /// H and D without a code; LinuxCNC does not know that.
   Fault length_word();
   Fault radius_word();
 
@@ -42,6 +48,7 @@ class ToolCodes : private BlockHandler {
   Fault choose_length(std::uint16_t at, const Length& length);
   /// H of the block or the one that holds.
   Fault length_entry(std::uint16_t at, std::uint32_t& h);
+  Fault use_length(std::uint16_t at, const Length& use, std::uint16_t number, double length);
   Fault compensate(std::uint16_t at, bool named);
   void read_wall(const AxisValues& here);
 };

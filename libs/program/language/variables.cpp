@@ -50,6 +50,7 @@ void Variables::start(const VariableStore& store) {
   store_ = store;
   level_ = 0;
   system_reads_ = own_reads_ = 0;
+  names_.start();
   written_count_ = 0;
   levels_[0].arguments.clear();
   levels_[0].values.fill({});
@@ -69,13 +70,15 @@ void Variables::copy_to(VariableImage& image) const {
   image.store = store_;
   for (std::size_t i = 0; i <= level_; ++i) image.locals[i] = levels_[i].values;
   image.level = level_;
+  image.names = names_.digest();
   image.system_reads = system_reads_;
   image.own_reads = own_reads_;
 }
 
 // The locals first: a loop counts in them most often.
 bool Variables::same_as(const VariableImage& image) const {
-  if (image.level != level_ || image.system_reads != system_reads_) return false;
+  if (image.level != level_ || image.system_reads != system_reads_ || image.names != names_.digest())
+    return false;
   for (std::size_t i = level_ + 1; i-- > 0;)
     if (image.locals[i] != levels_[i].values) return false;
   return image.store == store_;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "language/alarms.hpp"
+#include "language/named_parameters.hpp"
 
 namespace trunnion::language {
 
@@ -191,6 +192,7 @@ struct VariableImage {
   VariableStore store;
   std::array<std::array<Value, local_variables>, variable_levels> locals{};
   std::size_t level = 0;
+  std::uint64_t names = 0;         ///< NamedParameters::digest()
   std::uint64_t system_reads = 0;  ///< how often the program had read one since its start
   std::uint64_t own_reads = 0;     ///< likewise, of those that are its own position and modal state
 };
@@ -205,6 +207,9 @@ struct Arguments {
     absolute = true;
   }
 };
+
+/// What a parameter of the LinuxCNC dialect shows: linuxcnc_parameters.hpp.
+enum class LinuxcncValue : std::uint8_t;
 
 /// System variables: the state of the control.
 class SystemVariables {
@@ -232,6 +237,13 @@ class SystemVariables {
     static_cast<void>(number);
     static_cast<void>(value);
     return {AlarmNumber::num_parameter_unavailable, 0};
+  }
+  /// A parameter of the LinuxCNC dialect; `index` counts axes or coordinate systems from 0.
+  virtual AlarmNumber read_linuxcnc(LinuxcncValue which, std::uint32_t index, double& value) const {
+    static_cast<void>(which);
+    static_cast<void>(index);
+    value = 0;
+    return AlarmNumber::linuxcnc_parameter_unavailable;
   }
 };
 
@@ -280,6 +292,13 @@ class Variables {
     return system_.read_external(number, value);
   }
   Fault write_external(std::uint32_t number, double value) { return system_.write_external(number, value); }
+  /// Likewise.
+  AlarmNumber read_linuxcnc(LinuxcncValue which, std::uint32_t index, double& value) const {
+    ++system_reads_;
+    return system_.read_linuxcnc(which, index, value);
+  }
+  NamedParameters& names() { return names_; }
+  const NamedParameters& names() const { return names_; }
 
   /// What is stored from now on can be taken back.
   void begin_line() { written_count_ = 0; }
@@ -322,6 +341,7 @@ class Variables {
   VariableStore store_;
   std::array<Level, max_levels> levels_{};
   std::size_t level_ = 0;
+  NamedParameters names_;
   mutable std::uint64_t system_reads_ = 0, own_reads_ = 0;
   std::array<Written, most_taken_back> written_{};  // in this line
   std::size_t written_count_ = 0;

@@ -18,10 +18,13 @@ using language::CommandKind;
 
 namespace {
 
-/// A line of the started program, or of another text with its name.
-std::string place(std::uint32_t program, std::uint32_t line) {
+/// A line of the started program, or of another text with its name; `file` as Alarm::file_name.
+std::string place(std::uint32_t program, std::uint32_t line, const language::FileName& file) {
   std::string name;
-  if (program != 0) name = std::string(language::ProgramName(program).view()) + ":";
+  if (file.front() != '\0')
+    name = std::string(file.data()) + ":";
+  else if (program != 0)
+    name = std::string(language::ProgramName(program).view()) + ":";
   return name + std::to_string(line);
 }
 
@@ -268,12 +271,15 @@ void ProgramFlow::refuse_pending(language::AlarmNumber number, const std::string
 
 void ProgramFlow::refuse_thread(language::AlarmNumber number, std::size_t leg) {
   const auto& at = legs_[leg];
-  fail(definition_of(number), place(at.program, at.line) + ": " + std::string(language::alarm_text(number)));
+  fail(definition_of(number), place(at.program, at.line, interpreter_.file_name(at.program)) + ": " +
+                                  std::string(language::alarm_text(number)));
   place_alarm(at.program, at.line);
 }
 
 FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text) {
-  return fail(definition_of(number), place(command_.program, command_.line) + ": " + std::string(text));
+  return fail(definition_of(number),
+              place(command_.program, command_.line, interpreter_.file_name(command_.program)) + ": " +
+                  std::string(text));
 }
 
 FlowState ProgramFlow::fail_without_reference() {
@@ -287,7 +293,7 @@ FlowState ProgramFlow::arrive_at_line() {
   const auto& modal = interpreter_.modal();
   if (modal.cutter_side != language::CutterSide::off)
     return fail_search("cutter radius compensation is on here: start before its G41 or G42");
-  if (modal.motion == 62) return fail_search("the line is in the middle of a curve (G6.2)");
+  if (modal.motion == 62) return fail_search("the line is in the middle of a curve (G6.2, G5.2)");
   search_ = Search::none;
   behind_thread_ = coupled_threads_ && command_.kind == CommandKind::thread &&
                    command_.modal.path_control == language::PathControl::continuous;
@@ -324,10 +330,10 @@ FlowState ProgramFlow::take_step(language::Step step) {
       return FlowState::end;
     case language::Step::alarm: {
       const auto& alarm = interpreter_.alarm();
-      auto text =
-          place(alarm.program, alarm.line) + ":" + std::to_string(alarm.column) + ": " + alarm.text.data();
+      auto text = place(alarm.program, alarm.line, alarm.file_name) + ":" + std::to_string(alarm.column) +
+                  ": " + alarm.text.data();
       for (std::size_t k = alarm.calls; k-- > 0;)
-        text += ", called from " + place(alarm.chain[k].program, alarm.chain[k].line);
+        text += ", called from " + place(alarm.chain[k].program, alarm.chain[k].line, alarm.chain[k].file);
       fail(definition_of(alarm.number), text);
       placed_alarm_ = alarm;
       return FlowState::alarm;

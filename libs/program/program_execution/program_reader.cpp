@@ -15,7 +15,7 @@ ProgramReader::ProgramReader(channel_setup::ChannelSetup& machine, const Reading
     : environment_(machine),
       machine_(&machine),
       options_(options),
-      flow_(machine, {options.block_skip, false}),
+      flow_(machine, {options.block_skip, false, true}),
       motionless_(machine.limits(), machine.cycle_seconds()),
       motion_(motion != nullptr ? motion : &motionless_),
       loop_(true, options.most_returns) {}
@@ -24,7 +24,7 @@ ProgramReader::ProgramReader(channel_setup::ChannelSetup& machine, const Reading
 ProgramReader::ProgramReader(language::Environment& environment, const ReadingOptions& options)
     : environment_(environment),
       options_(options),
-      flow_(environment, {options.block_skip, false}),
+      flow_(environment, {options.block_skip, false, true}),
       motion_(&motionless_),
       loop_(false, options.most_returns) {}
 

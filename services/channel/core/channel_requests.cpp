@@ -100,7 +100,11 @@ void ChannelCore::change_table(const language::Command& command) {
 // As in the alarms of the interpreter.
 std::string ChannelCore::place_of(const language::Command& command) const {
   auto place = program_name() + ":";
-  if (command.program != 0) place += std::string(language::ProgramName(command.program).view()) + ":";
+  const auto file = flow().interpreter().file_name(command.program);
+  if (file.front() != '\0')
+    place += std::string(file.data()) + ":";
+  else if (command.program != 0)
+    place += std::string(language::ProgramName(command.program).view()) + ":";
   return place + std::to_string(command.line);
 }
 

@@ -54,6 +54,42 @@ TEST(Allocation, NoneWithFramesCyclesCurvesAndCompensation) {
   EXPECT_EQ(step, Step::end) << interpreter.alarm().line << interpreter.alarm().text.data();
 }
 
+TEST(Allocation, NoneWithSubroutinesNamesAndMessages) {
+  TestMachine machine;
+  machine.dialect = ProgramDialect::linuxcnc;
+  const std::string_view text =
+      "o<turn> sub\n#<a>=#1 #<_b>=[#<a>*2]\nG1 X#<a> Y#<_b> F100\no<turn> endsub [#<a>]\n"
+      "#<n>=0\no100 while [#<n> LT 500]\n#<n>=[#<n>+1] (DEBUG,n %d#<n>)\no<turn> call [#<n>]\n"
+      "o101 if [#<_value> EQ 3]\no100 continue\no101 endif\no102 repeat [2]\nG0 X0\no102 endrepeat\n"
+      "o100 endwhile\nM9 M5 T1 M6\nM2\n";
+  StringSource source(text);
+  Interpreter interpreter(machine);
+  Command command;
+  const std::size_t before = allocations;
+  interpreter.start(source, {}, {});
+  Step step = Step::command;
+  while (step == Step::command || step == Step::working) step = interpreter.next(command);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(step, Step::end) << interpreter.alarm().line << interpreter.alarm().text.data();
+}
+
+TEST(Allocation, NoneWithSplinesThreadsAndSavedModes) {
+  TestMachine machine;
+  machine.dialect = ProgramDialect::linuxcnc;
+  const std::string_view text =
+      "o1 sub\nM73\nG91 G5 X1 Y1 I0 J3 P0 Q-3\no1 endsub\nF100 S100 M3\no1 call\n"
+      "G5.2 X9 Y1\nX9 Y8\nG5.3\nG18 G76 P1 Z-10 I-2 J.2 K.6 R2 Q29.5 H1 E.5 L3\nM2\n";
+  StringSource source(text);
+  Interpreter interpreter(machine);
+  Command command;
+  const std::size_t before = allocations;
+  interpreter.start(source, {}, {});
+  Step step = Step::command;
+  while (step == Step::command || step == Step::working) step = interpreter.next(command);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(step, Step::end) << interpreter.alarm().line << interpreter.alarm().text.data();
+}
+
 /// A program of any length, made while it is read: one line again and again.
 struct EndlessText : TextSource {
   ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {

@@ -108,6 +108,34 @@ TEST(DialectSelection, TextsOfTheControlAreTheSameInEveryChannel) {
   EXPECT_THAT(stream(run(machine, "(DIALECT: ISO)\nG1007 A2000\nM30")), ElementsAre("dwell 2", "end 30"));
 }
 
+// P of G4 is in seconds in the LinuxCNC dialect.
+TEST(DialectSelection, AnOWordCallsALinuxcncFileUnlessItsHeadSaysOtherwise) {
+  TestMachine machine = machine_of(ProgramDialect::iso);
+  store(machine, "pocket", "o<pocket> sub\nG4 P#1\no<inner> call\no<pocket> endsub\n");
+  store(machine, "O0030", "G4 P3000\nM99\n");
+  EXPECT_THAT(stream(run(machine,
+                         "(DIALECT: LINUXCNC)\no<inner> sub\nG4 P2\no<inner> endsub\n"
+                         "o<pocket> call [3]\nM98 P30\no<pocket> call [4]\nG4 P1\nM2\n")),
+              ElementsAre("dwell 3", "dwell 2", "dwell 3", "dwell 4", "dwell 2", "dwell 1", "end 2"));
+  store(machine, "other", "(DIALECT: ISO)\no<other> sub\nG4 P1\no<other> endsub\n");
+  EXPECT_THAT(stream(run(machine, "(DIALECT: LINUXCNC)\no<other> call\nM2\n")),
+              ElementsAre("alarm 1401 2:1"));
+  store(machine, "wrong", "\n(DIALECT: EMC)\n");
+  const Interpretation result = run(machine, "(DIALECT: LINUXCNC)\no<wrong> call\nM2\n");
+  EXPECT_THAT(stream(result), ElementsAre("alarm 1530 2:11"));
+  EXPECT_STREQ(result.alarm.file_name.data(), "wrong");
+}
+
+TEST(DialectSelection, AProgramBeginsAsItsHeadSays) {
+  TestMachine machine = machine_of(ProgramDialect::iso);
+  const std::string drill = "F100 G0 Z3\nG81 X1 Z-1 R2\nM2\n";
+  EXPECT_THAT(
+      stream(run(machine, "(DIALECT: LINUXCNC)\n" + drill)),
+      ElementsAre("rapid Z3", "rapid X1 Z3", "rapid X1 Z2", "line X1 Z-1 F100", "rapid X1 Z2", "end 2"));
+  EXPECT_THAT(stream(run(machine, drill)), ElementsAre("rapid Z3", "rapid X1 Z3", "rapid X1 Z2",
+                                                       "line X1 Z-1 F100", "rapid X1 Z3", "end 2"));
+}
+
 TEST(DialectSelection, ALabelAndALoopAreLookedForInTheDialectOfTheText) {
   TestMachine machine = machine_of(ProgramDialect::iso);
   store(machine, "O0010", "(DIALECT: NUM)\nG79 N30\nG4 F9\nN30 G4 F2\n");

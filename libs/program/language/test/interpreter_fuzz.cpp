@@ -78,6 +78,9 @@ void interpret(const std::uint8_t* data, std::size_t size, ProgramDialect dialec
   machine.programs["O90370"] = std::make_unique<StringSource>("G31 P#30 Z#26 F#29\n#[2000+#11]=#5063\nM99\n");
   machine.programs["O90800"] = std::make_unique<StringSource>(
       "IF [#2 EQ 0] THEN G69\nG68.3 X#5 Y#6 Z#7 I#8 J#9 K#10 P4\nG53.1\nM99\n");
+  machine.programs["O0010"] = std::make_unique<StringSource>("o10 sub\nG91 X#1\no10 endsub [#1+1]\n");
+  machine.programs["sub"] =
+      std::make_unique<StringSource>("o<sub> sub\n#<a>=#1\no10 call [#<a>]\no<sub> endsub\n");
   machine.programs["USERDEF.CYC"] = std::make_unique<StringSource>(
       "%1007\nWHILE #1 LT #0\n#1=#1+1\nX#1\nENDW\nM99\n%1010\nIF AR[#7] EQ 0\nM99 P5\nENDIF\nG1007 "
       "A[#7]\nM99\n");
@@ -134,5 +137,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   test::interpret(data, size, ProgramDialect::iso);
   test::interpret(data, size, ProgramDialect::num);
   test::interpret(data, size, ProgramDialect::haas);
+  test::interpret(data, size, ProgramDialect::linuxcnc);
   return 0;
 }

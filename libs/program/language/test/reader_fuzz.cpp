@@ -24,12 +24,17 @@ struct NoSystem : SystemVariables {
     return AlarmNumber::none;
   }
   AlarmNumber write(const VariableRange&, std::uint32_t, Value) override { return AlarmNumber::none; }
+  AlarmNumber read_linuxcnc(LinuxcncValue, std::uint32_t index, double& value) const override {
+    value = index;
+    return AlarmNumber::none;
+  }
 };
 
 /// What an outline says of the text behind the word of a line that a jump may pass.
 void check_behind(const Outline& outline, const Block& block, const Fault& fault) {
   const bool passed = block.statement == Statement::else_ || block.statement == Statement::end_if ||
-                      block.statement == Statement::end_while || block.statement == Statement::end_do;
+                      block.statement == Statement::end_while || block.statement == Statement::end_do ||
+                      block.statement == Statement::end_repeat;
   const bool of_the_rest =
       fault.number == AlarmNumber::text_behind_statement || fault.number == AlarmNumber::open_comment;
   if (block.skipped || block.head != Head::none || !passed || (fault && !of_the_rest)) return;
@@ -76,8 +81,9 @@ void check(const Dialect& dialect, std::string_view line, SkipLevels skip, Varia
   require(block.g_count <= max_g_codes && block.m_count <= max_m_codes &&
           block.centre_count <= max_call_centres);
   if (block.head == Head::none) {
-    require(is_structure(block.statement) ? outline.statement == block.statement
-                                          : outline.statement == Statement::none);
+    const bool found = is_structure(block.statement) || outline.name != 0;
+    require(found ? outline.statement == block.statement : outline.statement == Statement::none);
+    require(outline.name == 0 || outline.name == block.name);
   }
   if (block.statement == Statement::begin_do || block.statement == Statement::end_do) {
     require(outline.label == block.label);
@@ -106,7 +112,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     if (end <= max_line_length) {
-      for (const auto name : {ProgramDialect::iso, ProgramDialect::num, ProgramDialect::haas})
+      for (const auto name :
+           {ProgramDialect::iso, ProgramDialect::num, ProgramDialect::linuxcnc, ProgramDialect::haas})
         check(Interpreter::dialect_of(name), text.substr(0, end), 0b10, variables, block);
     }
     text.remove_prefix(std::min(end + 1, text.size()));
