@@ -27,7 +27,7 @@ AlarmNumber OpenStructures::pass(Statement statement, std::uint64_t key, TextPos
     case Statement::begin_repeat:
     case Statement::begin_until:
       if (size_ == max_structures) return AlarmNumber::structure_too_deep;
-      open_[size_++] = {statement, key, position};
+      open_[size_++] = {statement, key, position, false, 0, {}};
       return AlarmNumber::none;
     case Statement::else_if:
     case Statement::else_:

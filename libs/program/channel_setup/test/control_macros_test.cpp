@@ -23,17 +23,17 @@ using enum language::Axis;
 
 constexpr std::uint32_t tool_macro = 90370, circle_macro = 90120, rectangle_macro = 90150;
 
-struct Run {
+struct Execution {
   std::vector<Command> commands;
   std::string alarm;  ///< its text; empty when there was none
 };
 
 /// Reads `text` to its end. A skip move finds its contact where Z of the machine is `contact`, or none.
-Run run(ChannelSetup& setup, const std::string& text, std::optional<double> contact = std::nullopt) {
+Execution run(ChannelSetup& setup, const std::string& text, std::optional<double> contact = std::nullopt) {
   language::StringSource source(text);
   language::Interpreter interpreter(setup);
   interpreter.start(source, {}, {});
-  Run result;
+  Execution result;
   Command command;
   for (;;) {
     const auto step = interpreter.next(command);
@@ -53,10 +53,12 @@ Run run(ChannelSetup& setup, const std::string& text, std::optional<double> cont
   }
 }
 
-bool says(const Run& result, const std::string& text) { return result.alarm.find(text) != std::string::npos; }
+bool says(const Execution& result, const std::string& text) {
+  return result.alarm.find(text) != std::string::npos;
+}
 
 /// The first command of this kind that the macro makes.
-std::optional<Command> first_of(const Run& result, std::uint32_t macro, CommandKind kind) {
+std::optional<Command> first_of(const Execution& result, std::uint32_t macro, CommandKind kind) {
   for (const Command& command : result.commands)
     if (command.program == macro && command.kind == kind) return command;
   return std::nullopt;
@@ -66,7 +68,7 @@ std::optional<Command> first_of(const Run& result, std::uint32_t macro, CommandK
 // -270.
 TEST(ToolMeasuring, AddsTheDifferenceToTheWearAndUsesTheNewLength) {
   auto setup = test::setup_of("ac-table");
-  const Run result = run(setup, "G21 G90 G54 G94 F300\nG43 H1\nG0 Z50\nG37 Z10\nG0 Z15\nM30\n", -269.8);
+  const Execution result = run(setup, "G21 G90 G54 G94 F300\nG43 H1\nG0 Z50\nG37 Z10\nG0 Z15\nM30\n", -269.8);
   ASSERT_EQ(result.alarm, "");
   const auto rapid = first_of(result, tool_macro, CommandKind::rapid);
   const auto skip = first_of(result, tool_macro, CommandKind::skip);
@@ -89,7 +91,7 @@ TEST(ToolMeasuring, ItsWordsGoBeforeTheParametersWhichCountInInchesToo) {
   tables.parameters.values[40770] = {3, ""};
   ChannelSetup setup(tables);
   const std::string begin = "G90 G54 G94 G43 H1\nG0 Z50\n";
-  const Run words = run(setup, "G21 " + begin + "G37 Z10 H1 R8 D2 F80\n", -270);
+  const Execution words = run(setup, "G21 " + begin + "G37 Z10 H1 R8 D2 F80\n", -270);
   ASSERT_EQ(words.alarm, "");
   EXPECT_NEAR(first_of(words, tool_macro, CommandKind::rapid)->target[Z], -262, 1e-9);
   const auto skip = first_of(words, tool_macro, CommandKind::skip);
@@ -97,7 +99,7 @@ TEST(ToolMeasuring, ItsWordsGoBeforeTheParametersWhichCountInInchesToo) {
   EXPECT_EQ(skip->modal.feed, 80);
   EXPECT_EQ(skip->number, 3u) << "04c770";
   // Z.5 is 12.7 mm: -267.3 in the machine.
-  const Run inches = run(setup, "G20 " + begin + "G37 Z.5\n", -267.3);
+  const Execution inches = run(setup, "G20 " + begin + "G37 Z.5\n", -267.3);
   ASSERT_EQ(inches.alarm, "");
   EXPECT_NEAR(first_of(inches, tool_macro, CommandKind::rapid)->target[Z], -262.3, 1e-9);
   EXPECT_NEAR(first_of(inches, tool_macro, CommandKind::skip)->target[Z], -268.3, 1e-9);
@@ -108,11 +110,11 @@ TEST(ToolMeasuring, ItsWordsGoBeforeTheParametersWhichCountInInchesToo) {
 TEST(ToolMeasuring, AContactOutsideOfItsRangeIsAnAlarmAndChangesNothing) {
   auto setup = test::setup_of("ac-table");
   const std::string begin = "G21 G90 G54 G94 F300\nG43 H1\nG0 Z50\n";
-  const Run none = run(setup, begin + "G37 Z10\n");
+  const Execution none = run(setup, begin + "G37 Z10\n");
   EXPECT_TRUE(says(none, "no contact of the tool")) << none.alarm;
-  const Run early = run(setup, begin + "G37 Z10\n", -267);
+  const Execution early = run(setup, begin + "G37 Z10\n", -267);
   EXPECT_TRUE(says(early, "contact before the range")) << early.alarm;
-  for (const Run& result : {none, early})
+  for (const Execution& result : {none, early})
     EXPECT_FALSE(first_of(result, tool_macro, CommandKind::table).has_value());
   EXPECT_TRUE(says(run(setup, begin + "G37 Z10 H2\n"), "H must be the active length"));
   EXPECT_TRUE(says(run(setup, begin + "G91 G37 Z-5\n"), "needs G90"));
@@ -125,7 +127,8 @@ using Point = std::array<double, 3>;
 
 /// The way of the tool in the moves that the macro makes, program coordinates, in points at most `step`
 /// apart.
-std::vector<Point> way_of(const ChannelSetup& setup, const Run& result, std::uint32_t macro, double step) {
+std::vector<Point> way_of(const ChannelSetup& setup, const Execution& result, std::uint32_t macro,
+                          double step) {
   const AxisValues zero = setup.work_offset(0);
   std::vector<Point> points;
   AxisValues from{};
@@ -224,7 +227,7 @@ TEST(CircularPocket, IsClearedToItsRadiusAndNoFarther) {
                         Case{"G12 I9.9 K30.3 Q9.9 D1 F200 Z-1", 30.3, -1, true},
                         Case{"D1\nG90 G13 X10 Y-5 I5.5 K6 Q4 Z-2 F200", 6, -2, false},
                         Case{"G90.1\nG13 I8 D1 Z-3 F200", 8, -3, false}}) {
-    const Run result = run(setup, mill + "G0 X10 Y-5 Z2\n" + c.words + "\nG0 Z9\nM30\n");
+    const Execution result = run(setup, mill + "G0 X10 Y-5 Z2\n" + c.words + "\nG0 Z9\nM30\n");
     ASSERT_EQ(result.alarm, "") << c.words;
     const auto way = at_depth(way_of(setup, result, circle_macro, point_step), c.depth);
     const Pocket pocket{10, -5, c.radius, c.radius, c.radius};
@@ -245,7 +248,7 @@ TEST(CircularPocket, IsClearedToItsRadiusAndNoFarther) {
 // With D0 the words are those of the tool's centre: it goes round at 8 mm.
 TEST(CircularPocket, WithoutARadiusIsTheWayOfTheCentre) {
   auto setup = milling_machine();
-  const Run result = run(setup, mill + "G0 Z2\nG13 I8 D0 Z-3 F200\n");
+  const Execution result = run(setup, mill + "G0 Z2\nG13 I8 D0 Z-3 F200\n");
   ASSERT_EQ(result.alarm, "");
   EXPECT_NEAR(beyond(way_of(setup, result, circle_macro, point_step), {0, 0, 8, 8, 8}, 0), 0, 1e-6);
 }
@@ -253,7 +256,7 @@ TEST(CircularPocket, WithoutARadiusIsTheWayOfTheCentre) {
 // L passes, each of them Z deeper, from Z2: the whole circle is cut at each.
 TEST(CircularPocket, GoesDownInPassesInIncrementalWords) {
   auto setup = milling_machine();
-  const Run result = run(setup, mill + "G0 Z2\nG91 G13 I8 D1 Z-1.5 L3 F200\nM30\n");
+  const Execution result = run(setup, mill + "G0 Z2\nG91 G13 I8 D1 Z-1.5 L3 F200\nM30\n");
   ASSERT_EQ(result.alarm, "");
   const auto way = way_of(setup, result, circle_macro, point_step);
   const Pocket pocket{0, 0, 8, 8, 8};
@@ -268,7 +271,7 @@ TEST(CircularPocket, GoesDownInPassesInIncrementalWords) {
 TEST(CircularPocket, WhatItCannotClearIsRefused) {
   auto setup = milling_machine();
   const auto refused = [&](const std::string& words, const std::string& text) {
-    const Run result = run(setup, mill + "G0 Z2\n" + words + "\n");
+    const Execution result = run(setup, mill + "G0 Z2\n" + words + "\n");
     EXPECT_TRUE(says(result, text)) << words << ": " << result.alarm;
     EXPECT_FALSE(first_of(result, circle_macro, CommandKind::arc).has_value()) << words;
   };
@@ -301,7 +304,7 @@ TEST(RectangularPocket, IsClearedToItsAllowanceInEveryPassAndNoFarther) {
       {"X33 Y33 Z-2 R0 C16.5", {3, 4, 16.5, 16.5, 16.5}, 0, {-2}}};  // a circle
   const std::string begin = mill + "G90.1 G0 X3 Y4 Z9\nG65 P90150 D1 F500 E100 ";
   for (const Case& c : cases) {
-    const Run result = run(setup, begin + c.words + "\nG0 X0\nM30\n");
+    const Execution result = run(setup, begin + c.words + "\nG0 X0\nM30\n");
     ASSERT_EQ(result.alarm, "") << c.words;
     EXPECT_TRUE(result.commands.back().modal.absolute_centres) << "G90.1 of the program stays";
     const auto way = way_of(setup, result, rectangle_macro, point_step);
@@ -318,7 +321,7 @@ TEST(RectangularPocket, IsClearedToItsAllowanceInEveryPassAndNoFarther) {
 TEST(RectangularPocket, WhatItCannotClearIsRefused) {
   auto setup = milling_machine();
   const auto refused = [&](const std::string& words, const std::string& text) {
-    const Run result = run(setup, mill + "G0 Z9\nG65 P90150 " + words + "\n");
+    const Execution result = run(setup, mill + "G0 Z9\nG65 P90150 " + words + "\n");
     EXPECT_TRUE(says(result, text)) << words << ": " << result.alarm;
     EXPECT_FALSE(first_of(result, rectangle_macro, CommandKind::line).has_value()) << words;
   };
@@ -354,7 +357,7 @@ void expect_matrix(const Matrix& found, const Matrix& expected, const std::strin
 
 /// The state behind a call of CYCLE800 at the axes' zero.
 language::ModalState behind(ChannelSetup& setup, const std::string& arguments) {
-  const Run result = run(setup, mill + "F1000\nCYCLE800(" + arguments + ")\n");
+  const Execution result = run(setup, mill + "F1000\nCYCLE800(" + arguments + ")\n");
   EXPECT_EQ(result.alarm, "") << arguments;
   return result.commands.empty() ? language::ModalState{} : result.commands.back().modal;
 }
@@ -401,7 +404,7 @@ TEST(Swivel, ItsDirectionChoosesTheSolutionWhereTheAxisReachesIt) {
   auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
   const auto a_behind = [&](const std::string& direction) {
     ChannelSetup setup(tables);
-    const Run result = run(setup, mill + "F1000\n" + call + direction + ",100,1)\n");
+    const Execution result = run(setup, mill + "F1000\n" + call + direction + ",100,1)\n");
     EXPECT_EQ(result.alarm, "");
     return result.commands.empty() ? 0 : result.commands.back().target[A];
   };
@@ -415,7 +418,7 @@ TEST(Swivel, TheNameZeroAndACallWithoutArgumentsTakeThePlaneBack) {
   auto setup = test::setup_of("ac-table");
   for (const char* const back : {"CYCLE800", "CYCLE800()", "CYCLE800 ; off",
                                  "CYCLE800(1,\"0\",200000,57,0,0,0,0,0,0,0,0,0,1,100,1)"}) {
-    const Run result =
+    const Execution result =
         run(setup, mill + "F1000\nCYCLE800(0,\"TABLE\",0,57,0,0,0,0,20,0,0,0,0,1,0,1)\n" + back + "\nM30\n");
     ASSERT_EQ(result.alarm, "") << back;
     EXPECT_FALSE(result.commands.back().modal.tilt.active) << back;
@@ -426,7 +429,7 @@ TEST(Swivel, TheNameZeroAndACallWithoutArgumentsTakeThePlaneBack) {
 // The retract is the way of G28. The sample programs of CYCLE9960 begin so, and need no plane behind.
 TEST(Swivel, WithoutRotationTheAxesGoToZeroAndNoPlaneIsActive) {
   auto setup = test::setup_of("ac-table");
-  const Run result = run(
+  const Execution result = run(
       setup,
       mill + "G0 Z-100 A10 C20\nCYCLE800(1,\"TOOL_CARR_KIN\",200000,57,0,0,0,0,0,0,0,0,0,1,100,1)\nM30\n");
   ASSERT_EQ(result.alarm, "");
@@ -448,19 +451,20 @@ TEST(Swivel, TheCallsOfTheSampleProgramsAreCarriedOut) {
         "CYCLE9960(11400,\"TOOL_CARR_KIN\",1,30,0,-90,0,3,0,0,0,240,3,0,0.001,2,2,1,1,0,1)\n",
         "CYCLE9960(11400,\"TOOL_CARR_KIN\",1,30,0,0,240,3,90,0,-90,90,3,0,0.001,2,2,1,1,0,1)\n"})
     EXPECT_EQ(run(setup, "G54 G17\n" + swivel + measure + back).alarm, "") << measure;
-  const Run one_axis = run(setup,
-                           "CYCLE800\nG54\nD1\nG17 G54 G90\n"
-                           "CYCLE800(1,\"TOOL_CARR_KIN\",200000,57,0,0,0,0,0,0,0,0,0,1,100,101)\n"
-                           "G0 Z300\nG0 X0 Y0\nG0 Z20\n"
-                           "CYCLE9960(11400,\"TOOL_CARR_KIN\",1,30,0,-90,90,6,0,0,0,0,3,0,0.1,3,2,1,1,10,1)\n"
-                           "CYCLE800\nM30\n");
+  const Execution one_axis =
+      run(setup,
+          "CYCLE800\nG54\nD1\nG17 G54 G90\n"
+          "CYCLE800(1,\"TOOL_CARR_KIN\",200000,57,0,0,0,0,0,0,0,0,0,1,100,101)\n"
+          "G0 Z300\nG0 X0 Y0\nG0 Z20\n"
+          "CYCLE9960(11400,\"TOOL_CARR_KIN\",1,30,0,-90,90,6,0,0,0,0,3,0,0.1,3,2,1,1,10,1)\n"
+          "CYCLE800\nM30\n");
   EXPECT_EQ(one_axis.alarm, "");
 }
 
 TEST(Swivel, WhatIsNotKnownIsRefusedWithItsArgument) {
   auto setup = test::setup_of("ac-table");
   const auto refused = [&](const std::string& arguments, const std::string& text) {
-    const Run result = run(setup, mill + "F1000\nCYCLE800(" + arguments + ")\n");
+    const Execution result = run(setup, mill + "F1000\nCYCLE800(" + arguments + ")\n");
     EXPECT_TRUE(says(result, text)) << arguments << ": " << result.alarm;
   };
   refused("4,\"\",0,57,0,0,0,0,10,0,0,0,0,1,0,1", "argument 1");

@@ -60,15 +60,20 @@ TEST(HaasDialect, EveryFunctionOfTheTableIsACodeHere) {
     EXPECT_GT(row.first, before);
     EXPECT_GE(row.last, row.first);
     before = row.last;
-    if (row.use == HaasUse::not_here) EXPECT_LE(std::strlen(row.meaning), 48u) << row.meaning;
+    if (row.use == HaasUse::not_here) {
+      EXPECT_LE(std::strlen(row.meaning), 48u) << row.meaning;
+    }
     if (row.use == HaasUse::not_here || row.use == HaasUse::no_effect || row.use == HaasUse::offset) continue;
     const auto tenths = static_cast<std::uint32_t>(std::lround(row.code * 10));
     const bool call = std::ranges::any_of(
         call_codes, [&](const auto& one) { return one.first <= tenths && tenths <= one.last; });
     EXPECT_TRUE(g_code(tenths) != nullptr || call || elsewhere.contains(row.code)) << "G" << row.first;
   }
-  for (const HaasCode& row : haas_m_codes)
-    if (row.use == HaasUse::not_here) EXPECT_LE(std::strlen(row.meaning), 48u) << row.meaning;
+  for (const HaasCode& row : haas_m_codes) {
+    if (row.use == HaasUse::not_here) {
+      EXPECT_LE(std::strlen(row.meaning), 48u) << row.meaning;
+    }
+  }
 }
 
 TEST(HaasDialect, FunctionsThatAreNotHereAreRefusedByName) {

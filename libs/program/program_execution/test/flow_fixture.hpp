@@ -100,9 +100,10 @@ struct ThreadFlow : Flow {
   /// Up to the first thread; what comes before is done.
   void reach_thread(const std::string& program) {
     start(program);
-    for (int i = 0; i < 5 && run() == FlowState::command && flow.pending().kind != CommandKind::thread; ++i)
+    for (int i = 0;
+         i < 5 && run() == FlowState::command && flow.pending().kind != canonical::CommandKind::thread; ++i)
       flow.finish_pending();
-    ASSERT_EQ(flow.pending().kind, CommandKind::thread);
+    ASSERT_EQ(flow.pending().kind, canonical::CommandKind::thread);
   }
 };
 
