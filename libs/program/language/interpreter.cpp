@@ -393,7 +393,7 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   subprogram.repetitions = flow.repetitions;
   subprogram.counted = flow.counted || !rules_.number_counts;
   subprogram.offset = flow.offset;
-  subprogram.program_offset = block_.offset(block_.has('P') ? 'P' : 'Q');
+  subprogram.program_offset = block_.offset(!block_.has('P') && block_.has('Q') ? 'Q' : 'P');
   subprogram.from_label = flow.from_label;
   subprogram.label = flow.label;
   subprogram.label_offset = flow.label_offset;

@@ -12,9 +12,11 @@ class NumberText {
  public:
   explicit NumberText(Scanner& scanner) : scanner_(scanner) {}
 
-  void take_one_of(char a, char b) {
+  bool take_one_of(char a, char b) {
     scanner_.skip_blanks();
-    if (scanner_.peek(0) == a || scanner_.peek(0) == b) take();
+    const bool there = scanner_.peek(0) == a || scanner_.peek(0) == b;
+    if (there) take();
+    return there;
   }
   void take_digits() {
     scanner_.skip_blanks();
@@ -41,8 +43,7 @@ Decimal read_spaced_number(Scanner& scanner) {
   NumberText text(ahead);
   text.take_one_of('-', '+');
   text.take_digits();
-  text.take_one_of('.', '.');
-  text.take_digits();
+  if (text.take_one_of('.', '.')) text.take_digits();
   const Decimal decimal = text.value();
   if (decimal.status != DecimalStatus::missing) scanner = ahead;
   return decimal;

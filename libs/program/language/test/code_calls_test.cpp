@@ -42,7 +42,7 @@ TEST(CodeCalls, ACodeOfTheTableIsReplacedWhereAParameterSaysSo) {
 TEST(CodeCalls, InACalledProgramEveryCodeIsTheOrdinaryOneAtAnyDepth) {
   TestMachine machine = machine_that_calls();
   machine.calls.g = {150};
-  EXPECT_EQ(run(machine, "T7 M6\nM30\n").alarm.number, AlarmNumber::unknown_g) << "G150 in O9020";
+  EXPECT_EQ(run(machine, "T7 M6\nM30\n").alarm.number, AlarmNumber::foreign_word) << "G150 in O9020";
   machine.programs["O9020"] = std::make_unique<StringSource>("T#20 M6\nM99\n");
   EXPECT_THAT(stream(run(machine, "T7 M6\nM30\n")), ElementsAre("T7", "M6", "end 30"));
   // O9002 calls O0020, whose M60 and G4 are those of the PLC and of the table.

@@ -286,7 +286,7 @@ TEST(HaasDialect, VariablesHaveTheNumbersOfTheControl) {
   for (const char* number : {"1601", "3027", "3030", "3201", "4104.5", "4201", "5007", "5201", "5501", "6001",
                              "7387", "10001", "10700", "20001", "50001"})
     EXPECT_NE(alarm_of(std::string("G0 X#[") + number + "]"), AlarmNumber::none) << number;
-  EXPECT_THAT(haas_stream("#1=#5401\nM30"), ElementsAre("alarm 1509 1:4"));
+  EXPECT_THAT(haas_stream("#1=#5501\nM30"), ElementsAre("alarm 1509 1:4"));
   EXPECT_THAT(haas_stream("#5201=1\nM30"), ElementsAre("alarm 1509 1:1"));
 }
 

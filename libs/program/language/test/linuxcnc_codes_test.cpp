@@ -76,7 +76,7 @@ TEST(LinuxcncCodes, WhatIsNotHereIsRefusedByItsName) {
 TEST(LinuxcncCodes, AMachineMayHaveMCodesOfItsOwn) {
   TestMachine machine = linuxcnc_machine();
   machine.functions.emplace();
-  machine.functions->add("3 4 5; 6; 10 101");
+  machine.functions->add("3 4 5; 6; 10; 101");
   EXPECT_THAT(stream(run(machine, "M10 M101\nM2\n")), ElementsAre("M10", "M101", "end 2"));
   EXPECT_THAT(stream(run(machine, "M11\nM2\n")), ElementsAre("alarm 1191 1:1"));
   EXPECT_THAT(stream(run(machine, "M8\nM2\n")), ElementsAre("alarm 1104 1:1"));

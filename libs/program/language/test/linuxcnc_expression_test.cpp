@@ -79,7 +79,7 @@ TEST(LinuxcncExpression, AllValuesOfABlockAreReadBeforeOneIsWritten) {
 
 TEST(LinuxcncExpression, NamesMustHaveBeenWritten) {
   EXPECT_EQ(shown("#<a>"), "alarm 1193");
-  EXPECT_EQ(shown("#<_a>"), "alarm 1193");
+  EXPECT_EQ(shown("#<_mine>"), "alarm 1193");
   EXPECT_EQ(shown("#77"), "0.000000");
   EXPECT_EQ(shown("[EXISTS[#<a>]*2+EXISTS[#<b>]]", "#<a>=0\n"), "2.000000");
   EXPECT_EQ(shown("[EXISTS[#<_x>]+EXISTS[#5]+EXISTS[#6000]]"), "2.000000");
@@ -172,7 +172,7 @@ TEST(LinuxcncExpression, UserParametersAreKeptAsThoseOfOtherDialects) {
 TEST(LinuxcncExpression, TheLastCommentOfABlockMayBeAMessage) {
   EXPECT_THAT(linuxcnc_messages("(MSG, hello #1)\n( m S g , two )\n(MSG)\n(MSGS, no)\n(MSG,x)(a comment)\n"
                                 "; print, #<_line>\n(debug)"),
-              ElementsAre("hello #1", "two", "6.000000"));
+              ElementsAre("hello #1", "two ", "6.000000"));
   EXPECT_THAT(linuxcnc_messages("#<value>=1.123456789\n(DEBUG, a #<value> b)\n(DEBUG,%d#<value>)\n"
                                 "(DEBUG,%fv #<value>, %.7f#< Value>%x %d#1)\n(DEBUG,#<none>)"),
               ElementsAre("a 1.123457 b", "1", "v 1.1235, 1.1234568%x 0", "######"));

@@ -390,11 +390,11 @@ TEST(NumDialect, ClashesAreDecidedByTheDialect) {
   EXPECT_EQ(alarm(num, "$text"), AlarmNumber::none);
   EXPECT_EQ(alarm(iso, "%\nG0 X1\n%\n"), AlarmNumber::none);
   EXPECT_EQ(alarm(num, "%\nG0 X1\n%\n"), AlarmNumber::number_missing);
-  EXPECT_EQ(alarm(iso, "G4 F1"), AlarmNumber::missing_word);
+  EXPECT_EQ(alarm(iso, "G4 F1"), AlarmNumber::foreign_word);
   EXPECT_EQ(alarm(num, "G4 F1"), AlarmNumber::none);
   EXPECT_EQ(alarm(iso, "G4 P100"), AlarmNumber::none);
   EXPECT_EQ(alarm(num, "G4 P100"), AlarmNumber::num_word);
-  EXPECT_EQ(alarm(iso, "G77 H5"), AlarmNumber::unknown_g);
+  EXPECT_EQ(alarm(iso, "G77 H5"), AlarmNumber::foreign_word);
   EXPECT_EQ(alarm(num, "G77 H5"), AlarmNumber::subprogram_missing);
   EXPECT_EQ(alarm(iso, "G95 S100 G84 Z-4 R1 F1 K2"), AlarmNumber::none);
   EXPECT_EQ(alarm(num, "G95 S100 G84 Z-4 R1 F1 K2"), AlarmNumber::num_tap_spindle);

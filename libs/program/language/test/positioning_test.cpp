@@ -183,7 +183,7 @@ TEST(Skip, TheNumberedCodesHaveAFeedOfTheMachine) {
   // In G20, too, it is mm/min, and deg/min of a rotary axis.
   EXPECT_THAT(stream(run(machine, "G20 G95 G31.1 X1\nG31.1 A5\n")),
               testing::ElementsAre("skip4 X25.4 F80", "skip4 X25.4 A5 F80", "end 0"));
-  const Interpretation result = run(machine, "G95 F1 G31.1 X1\nG1 X2\n");
+  const Interpretation result = run(machine, "G95 F1\nG31.1 X1\nG1 X2\n");
   EXPECT_EQ(result.commands[0].modal.feed_mode, FeedMode::per_minute);
   EXPECT_EQ(result.commands[1].modal.feed_mode, FeedMode::per_revolution);
   EXPECT_EQ(result.commands[1].modal.feed, 1);
