@@ -21,7 +21,8 @@ leave() {
   rm -f "$1/filling"
   local free
   free=$(df -k --output=avail "$1" | tail -1)
-  head -c $(((free - $2) * 1024)) /dev/zero > "$1/filling"
+  # The recorder may fill the disk before it, which is what was asked for then.
+  head -c $(((free - $2) * 1024)) /dev/zero > "$1/filling" 2> /dev/null || [ "$2" = 0 ]
 }
 no_alarm() { ! has_alarm "$1"; }
 has_states() { "$trunnion" info "$1" > "$work/info" 2>&1 && grep -q channel_state "$work/info"; }
