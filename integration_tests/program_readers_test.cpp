@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongProgram{"G0 X1\nX Y1\nM30\n", {1005, 2}}, WrongProgram{"G0 X1\nX1234567890\nM30\n", {1006, 2}},
         WrongProgram{"G0 X1\nX2 Y1 X3\nM30\n", {1007, 2}}, WrongProgram{"G0 X1\nTANGON P0\nM30\n", {1011, 2}},
         WrongProgram{"G0 X1\nG77 X2\nM30\n", {1101, 2}}, WrongProgram{"G0 X1\nG0 G1 X2\nM30\n", {1103, 2}},
-        WrongProgram{"G0 X1\nM1000\nM30\n", {1104, 2}}, WrongProgram{"G0 X1\nT1.5\nM30\n", {1105, 2}},
+        WrongProgram{"G0 X1\nM1000\nM30\n", {1104, 2}}, WrongProgram{"G0 X1\nT1.5\nM30\n", {1540, 2}},
         WrongProgram{"G0 X1\nG1 X2 F100 R5\nM30\n", {1107, 2}}, WrongProgram{"G0 X1\nG43\nM30\n", {1108, 2}},
         WrongProgram{"G0 X1\nW1\nM30\n", {1109, 2}}, WrongProgram{"G0 X1\nF0\nM30\n", {1112, 2}}));
 

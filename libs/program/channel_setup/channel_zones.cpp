@@ -2,6 +2,8 @@
 // The zones that programs forbid, on the way of a move.
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "channel_setup/channel_setup.hpp"
 #include "channel_setup/zone_search.hpp"
 #include "motion/path_segment.hpp"
@@ -12,11 +14,12 @@ namespace {
 constexpr std::size_t box_axes = 3;  // X Y Z
 
 std::string place_words(const AxisValues& machine, const language::StrokeZone& zone) {
+  constexpr double shown = 5e-5;  // less is 0, without a sign
   std::string words;
   for (std::size_t axis = 0; axis < box_axes; ++axis)
     if (zone.bounded[axis])
-      words +=
-          fmt::format("{}{} {:.4f}", words.empty() ? "" : " ", language::axis_letters[axis], machine[axis]);
+      words += fmt::format("{}{} {:.4f}", words.empty() ? "" : " ", language::axis_letters[axis],
+                           std::abs(machine[axis]) < shown ? 0.0 : machine[axis]);
   return words;
 }
 

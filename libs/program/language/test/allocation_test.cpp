@@ -58,7 +58,7 @@ TEST(Allocation, NoneWithSubroutinesNamesAndMessages) {
   TestMachine machine;
   machine.dialect = ProgramDialect::linuxcnc;
   const std::string_view text =
-      "o<turn> sub\n#<a>=#1\n#<_b>=[#<a>*2]\nG1 X#<a> Y#<_b> F100\no<turn> endsub [#<a>]\n"
+      "o<turn> sub\n#<a>=#1\n#<_width>=[#<a>*2]\nG1 X#<a> Y#<_width> F100\no<turn> endsub [#<a>]\n"
       "#<n>=0\no100 while [#<n> LT 500]\n#<n>=[#<n>+1] (DEBUG,n %d#<n>)\no<turn> call [#<n>]\n"
       "o101 if [#<_value> EQ 3]\no100 continue\no101 endif\no102 repeat [2]\nG0 X0\no102 endrepeat\n"
       "o100 endwhile\nM9 M5 T1 M6\nM2\n";
