@@ -25,7 +25,7 @@ TEST_F(Suppression, AFeedHoldWaitsForTheBlocksBehind) {
   load("G90\n#3004=1\nG1 X5 F600\n#3004=0\nX60\nM30\n");
   cycles_per_round = 8;
   ask(CommandKind::CYCLE_START);
-  for (int i = 0; i < 20; ++i) round();
+  for (int i = 0; i < 10; ++i) round();
   ASSERT_LT(drive.rows.back()[0], 2);
   ASSERT_TRUE(ask(CommandKind::FEED_HOLD).accepted);
   EXPECT_EQ(core->run_state(), RunState::RUNNING);
