@@ -179,11 +179,13 @@ TEST(Warnings, OfASubprogramNameItsText) {
       tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table"));
   language::StringSource called("O7\nG41 G1 X10 F500\nX20\nG40 X30\nM99\n");
   machine.resolve = [&](std::string_view name) { return name == "O0007" ? &called : nullptr; };
-  language::StringSource source(prelude + "G0 X0 Y0 Z50\nM98 P7\nM30\n");
+  const std::string text = prelude + "G0 X0 Y0 Z50\nM98 P7\nM30\n";
+  language::StringSource source(text);
   std::ostringstream out;
   check_program(source, machine, machine.reference_position(), {}, name_of_text, out);
   EXPECT_THAT(warnings_in(out.str()),
-              ElementsAre(StartsWith("warning  other line 2:1: G41 or G42 without D")));
+              ElementsAre(StartsWith("warning  other line 2:1: G41 or G42 without D")))
+      << out.str();
 }
 
 TEST(Warnings, FollowTheDialectOfTheText) {
